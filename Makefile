@@ -1,0 +1,170 @@
+# Build, test and demonstrate bipact. `make help` lists the targets.
+# Sources and tests are found by wildcard: a new file needs no edit here.
+# Local choices (compiler, flags, libraries) go to config.mk, see config.mk.example.
+
+-include config.mk
+
+FLAVOUR ?= release
+PYTHON3 ?= python3
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+ifeq ($(origin FC),default)
+FC := gfortran
+endif
+
+B := build/$(FLAVOUR)
+BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
+LIB := $(B)/libbipact.a
+Q := $(if $(V),,@)
+
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.DEFAULT_GOAL := all
+.PHONY: all demo test test-unit test-programs check-style doc deps venv debug sanitize bench \
+        clean distclean help FORCE
+
+# ---------------------------------------------------------------- targets for people
+
+# These read neither the compiler nor the sources: they must work on a machine that has no gfortran
+# yet. What needs a compiler runs in a second make, started after the installation.
+light := demo test test-unit check-style doc deps venv debug sanitize bench clean distclean help
+again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
+
+all: $(BIN) ## build bin/bipact (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+
+demo: ## install what is missing, build, run the two-bar impact and draw its figures
+	+@$(again) venv
+	+@$(again) all
+	@.venv/bin/python scripts/demo.py
+
+test: ## install what is missing, build, run every test
+	+@$(again) venv
+	+@$(again) WERROR=1 all test-programs
+	@FLAVOUR=$(FLAVOUR) tests/run.sh
+
+test-unit: ## build and run the unit tests only
+	+@$(again) test-programs
+	@FLAVOUR=$(FLAVOUR) tests/run.sh unit/
+
+check-style: ## check the layout rules of sources and scripts
+	@$(PYTHON3) scripts/check_style.py
+
+doc: ## regenerate the generated pages of doc/
+	+@$(again) all
+	@if [ -x scripts/make_doc.sh ]; then scripts/make_doc.sh; else echo "doc: nothing to generate"; fi
+
+bench: ## measure speed and accuracy
+	+@$(again) all
+	@if [ -x bench/run_bench.sh ]; then bench/run_bench.sh; else echo "bench: nothing to run"; fi
+
+debug sanitize: ## build bin/bipact-debug or bin/bipact-sanitize
+	+@$(again) FLAVOUR=$@ all
+
+deps: ## install compiler and libraries, if any is missing
+	@FC="$(FC)" PYTHON="$(PYTHON3)" scripts/install-deps.sh
+
+venv: deps ## make .venv with the Python packages of requirements.txt
+	@PYTHON="$(PYTHON3)" scripts/setup-venv.sh
+
+clean: ## remove what was built
+	rm -rf build bin
+
+distclean: clean ## remove .venv and demonstration results too
+	rm -rf .venv demo.out
+
+help: ## show this list
+	@sed -n 's/^\([a-z][a-z -]*\):[^#]*## /\1: /p' $(firstword $(MAKEFILE_LIST)) \
+	  | awk -F ': ' '{ printf "  %-16s %s\n", $$1, $$2 }'
+
+# ---------------------------------------------------------------- the build itself
+
+ifneq ($(filter-out $(light),$(or $(MAKECMDGOALS),all)),)
+
+ifeq ($(shell command -v $(firstword $(FC)) 2>/dev/null),)
+$(error $(FC) was not found: run "make deps", which installs what is missing)
+endif
+
+flags.release := -O3 $(if $(ARCH),-march=$(ARCH))
+flags.debug := -O0 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,zero,overflow -fbacktrace \
+               -DBIPACT_DEBUG
+flags.sanitize := -O1 -g -fsanitize=address,undefined -fbacktrace -DBIPACT_DEBUG
+ifeq ($(flags.$(FLAVOUR)),)
+$(error FLAVOUR is release, debug or sanitize, not "$(FLAVOUR)")
+endif
+# The two warnings left out are spurious for do-nothing base procedures and allocatable results.
+flags := -std=f2008 -fimplicit-none -Wall -Wextra -Wno-unused-dummy-argument \
+         -Wno-maybe-uninitialized $(flags.$(FLAVOUR)) $(FFLAGS)
+
+# Static archives start faster and give the same binary on every machine of one kind.
+archive = $(filter /%,$(shell $(FC) -print-file-name=lib$(1).a))
+ifndef LIBS
+LIBS := $(foreach lib,lapack blas metis,$(or $(call archive,$(lib)),-l$(lib)))
+endif
+ifndef LDFLAGS
+LDFLAGS := $(if $(call archive,gfortran),-static-libgfortran)
+endif
+
+version := $(B)/gen/base_version.f90
+sources := $(wildcard src/*/*.f90 src/*/*.F90) $(version)
+support := $(wildcard tests/support/*.f90)
+units := $(wildcard tests/unit/test_*.f90)
+object = $(patsubst %,$(B)/obj/%.o,$(basename $(notdir $(1))))
+programs := $(patsubst tests/unit/%.f90,$(B)/tests/%,$(units))
+
+# Replaces the target by its new text only if it differs, so that nothing is remade needlessly.
+refresh = if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
+# A file that compiled with warnings leaves them in its .log: WERROR=1 compiles it once more, so
+# that warnings do not slip through because the object was there already.
+ifeq ($(WERROR),1)
+warned := $(shell find $(B)/obj -name '*.log' -size +0 2>/dev/null)
+$(shell rm -f $(warned:.log=.o))
+endif
+
+define compile
+@mkdir -p $(@D) $(B)/mod
+@echo "  FC   $<"
+$(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) -J$(B)/mod -c $< -o $@ \
+  2>$(@:.o=.log) || { cat $(@:.o=.log) >&2; exit 1; }; cat $(@:.o=.log) >&2
+endef
+
+define link
+@mkdir -p $(@D)
+@echo "  LINK $@"
+$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) \
+  || { echo 'Linking failed. If a library was not found: run "make deps".' >&2; exit 1; }
+endef
+
+$(BIN): $(B)/obj/main.o $(LIB) $(B)/flags
+	$(link)
+
+test-programs: $(programs)
+
+$(programs): $(B)/tests/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/flags
+	$(link)
+
+# Made anew, also when only the list of sources (in deps.mk) changed: no stale member stays in it.
+$(LIB): $(call object,$(filter-out src/run/main.f90,$(sources))) $(B)/deps.mk
+	$(Q)rm -f $@
+	$(Q)ar rcs $@ $(filter %.o,$^)
+
+$(version): VERSION
+	@mkdir -p $(@D)
+	@printf "%s\n" '!> Written by the Makefile from the file VERSION.' 'module base_version' \
+	  'implicit none' 'private' \
+	  "character(*), parameter, public :: version = '$$(head -n 1 VERSION)'" \
+	  'end module base_version' >$@
+
+# Other flags or another compiler: everything is compiled again.
+$(B)/flags: FORCE
+	@mkdir -p $(@D)
+	@echo '$(FC) $(shell $(FC) -dumpfullversion) $(flags) $(LDFLAGS) $(LIBS)' >$@.new
+	@$(refresh)
+
+# Scanned each time (milliseconds): only so a removed or renamed source is noticed.
+$(B)/deps.mk: $(version) FORCE
+	@awk -f scripts/mkdeps.awk $(sources) $(support) $(units) >$@.new
+	@$(refresh)
+
+include $(B)/deps.mk
+
+endif

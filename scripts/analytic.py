@@ -1,0 +1,391 @@
+#!/usr/bin/env python3
+"""Exact solutions of longitudinal impact of elastic bars (1-D waves, no friction).
+
+Symbols and dimensions: L length [L], c wave speed [L T-1], rho density [M L-3], A section [L2],
+Z = rho c A impedance [M T-1], v velocity [L T-1], N axial force, tension positive [F],
+F contact force, compression positive [F], t time [T].
+
+Waves: v - N/Z travels to the right, v + N/Z to the left, each unchanged (d'Alembert 1747;
+Graff 1975, Wave Motion in Elastic Solids; Goldsmith 1960, Impact).
+
+    TwoBars         closed form: two identical bars at +v0 and -v0, or one bar on a rigid wall
+    Impact          any two bars, by characteristics: force, displacements, energies, fields
+    unequal_lengths, staircase, interface, touch_time: closed forms
+"""
+import argparse
+import bisect
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+
+
+# ---------------------------------------------------------------- closed forms
+
+def touch_time(gap, v1, v2):
+    """t1 = gap/(v1 - v2) [T] of two bodies that close a gap [L]; inf if they do not close."""
+    if gap <= 0.0 < v1 - v2:
+        return 0.0
+    return gap / (v1 - v2) if v1 > v2 else float("inf")
+
+
+def interface(z1, z2, v1, v2):
+    """Velocity [L T-1] and force [F] of two free faces at v1, v2 that meet:
+    v = (Z1 v1 + Z2 v2)/(Z1 + Z2),  F = Z1 Z2/(Z1 + Z2) (v1 - v2)   (Goldsmith 1960)."""
+    return (z1 * v1 + z2 * v2) / (z1 + z2), z1 * z2 / (z1 + z2) * (v1 - v2)
+
+
+def unequal_lengths(length1, length2, speed, impedance, velocity):
+    """Bar 1 at `velocity` strikes bar 2 at rest; same Z and c, length1 < length2.
+
+    F = Z V/2 during 2 L1/c; then bar 1 rests without stress and the centre of bar 2 moves at
+    V L1/L2; restitution e = L1/L2; share 1 - L1/L2 of the energy stays as vibration of bar 2
+    (Goldsmith 1960).  Until 2 L2/c the bars still touch, at zero force.
+    """
+    ratio = length1 / length2
+    return {"force": 0.5 * impedance * velocity, "duration": 2.0 * length1 / speed,
+            "v_cm1": 0.0, "v_cm2": velocity * ratio, "restitution": ratio,
+            "vibration_share": 1.0 - ratio}
+
+
+def staircase(z1, z2, velocity, k):
+    """Contact force on the k-th interval (k = 0, 1, ...) of length 2 L1/c1; bar 2 very long and
+    at rest:  F_k = F_0 ((Z1 - Z2)/(Z1 + Z2))^k,  F_0 = Z1 Z2/(Z1 + Z2) V;  zero for k > 0 if
+    Z1 <= Z2 (then bar 1 has rebounded).  Goldsmith 1960."""
+    first = interface(z1, z2, velocity, 0.0)[1]
+    ratio = (z1 - z2) / (z1 + z2)
+    return first * np.where(np.asarray(k) == 0, 1.0, max(ratio, 0.0) ** np.asarray(k, float))
+
+
+@dataclass(frozen=True)
+class TwoBars:
+    """Two identical bars meet at +v0 and -v0 (Armero and Petocz 1998 use the same test).
+
+    touch t1 = gap/(2 v0); release t2 = t1 + 2 L/c; stress rho c v0 in between.  The default
+    data are ours for the paper's test: gap 0.02, v0 1.  bars = 1 is the left bar on a rigid
+    wall at distance gap: t1 = gap/v0, half of the energy.  The bar lies on -L < x < 0.
+    """
+    length: float = 10.0      # [L]
+    speed: float = 1000.0     # [L T-1]
+    density: float = 1.0e-3   # [M L-3]
+    area: float = 1.0         # [L2]
+    v0: float = 1.0           # [L T-1]
+    gap: float = 0.02         # [L]
+    bars: int = 2
+
+    @property
+    def touch(self):
+        """t1 [T]"""
+        return self.gap / (self.bars * self.v0)
+
+    @property
+    def release(self):
+        """t2 [T]"""
+        return self.touch + 2.0 * self.length / self.speed
+
+    @property
+    def energy(self):
+        """Energy of all bars, rho L A v0^2/2 each [F L]"""
+        return 0.5 * self.bars * self.density * self.length * self.area * self.v0 ** 2
+
+    @property
+    def impulse(self):
+        """2 rho L A v0 [F T]"""
+        return 2.0 * self.density * self.length * self.area * self.v0
+
+    def tip(self, t):
+        """Displacement of the left bar's contact end [L]: up, held, back."""
+        before = np.minimum(t, self.touch)
+        return self.v0 * (before - np.maximum(np.asarray(t) - self.release, 0.0))
+
+    def in_contact(self, t):
+        """True for t1 < t < t2."""
+        return (np.asarray(t) > self.touch) & (np.asarray(t) < self.release)
+
+    def force(self, t):
+        """Contact force rho c v0 A between touch and release [F]."""
+        return self.density * self.speed * self.v0 * self.area * self.in_contact(t)
+
+    def progress(self, t):
+        """tau c/L of the contact time, 0 at the touch and 2 at the release [-]."""
+        phase = (np.asarray(t) - self.touch) * self.speed / self.length
+        return np.clip(phase, 0.0, 2.0)
+
+    def kinetic(self, t):
+        """KE = E0 |1 - c tau/L| [F L]"""
+        return self.energy * np.abs(1.0 - self.progress(t))
+
+    def strain(self, t):
+        """SE = E0 - KE [F L]"""
+        return self.energy - self.kinetic(t)
+
+    def mean_velocity(self, t):
+        """Velocity of the left bar's centre of mass, v0 (1 - c tau/L) [L T-1]"""
+        return self.v0 * (1.0 - self.progress(t))
+
+    def velocity(self, x, t):
+        """Velocity of the left bar at -L < x < 0 [L T-1]: v0, 0 behind the loading wave, -v0
+        behind the unloading wave."""
+        depth, phase = -np.asarray(x) / self.length, self.progress(t)
+        loaded, unloaded = depth < phase, depth > 2.0 - phase
+        return self.v0 * np.where(unloaded, -1.0, np.where(loaded, 0.0, 1.0))
+
+    def stress(self, x, t):
+        """Axial stress of the left bar, tension positive [F L-2]: -rho c v0 where v = 0."""
+        held = self.velocity(x, t) == 0.0
+        return -self.density * self.speed * self.v0 * held
+
+
+# ---------------------------------------------------------------- characteristics
+
+@dataclass(frozen=True)
+class Bar:
+    """A uniform bar without stress at uniform velocity."""
+    length: float      # [L]
+    speed: float       # [L T-1]
+    impedance: float   # [M T-1]
+    velocity: float    # [L T-1]
+
+    @property
+    def line_mass(self):
+        """rho A = Z/c [M L-1]"""
+        return self.impedance / self.speed
+
+    @property
+    def mass(self):
+        """rho A L [M]"""
+        return self.line_mass * self.length
+
+    @property
+    def round_trip(self):
+        """2 L/c [T]"""
+        return 2.0 * self.length / self.speed
+
+
+class Wave:
+    """Piecewise constant wave that leaves the interface into one bar, as a function of the time
+    of departure [T]; before t = 0 it is the bar's initial velocity [L T-1]."""
+
+    def __init__(self, initial, tolerance):
+        self.times, self.values, self.tolerance = [float("-inf")], [initial], tolerance
+
+    def append(self, time, value):
+        """From `time` on the wave has this value."""
+        if value != self.values[-1]:
+            self.times.append(time)
+            self.values.append(value)
+
+    def at(self, time):
+        """Value just after `time`."""
+        return self.values[bisect.bisect_right(self.times, time + self.tolerance) - 1]
+
+    def next_change(self, time):
+        """First change after `time`; inf if none is known."""
+        k = bisect.bisect_right(self.times, time + self.tolerance)
+        return self.times[k] if k < len(self.times) else float("inf")
+
+
+class Impact:
+    """Exact impact of two bars that face each other across a gap; no stress at the far ends.
+
+    Method of characteristics with events instead of a fixed grid, so that any lengths, speeds
+    and gaps are exact.  With h = c dt in each bar it is the grid solution (Courant number 1;
+    Courant, Friedrichs and Lewy 1928).  A wave a_i that leaves the interface into bar i returns
+    after 2 L_i/c_i, reflected at the free end, and the interface then has
+        closed: F = Z1 Z2/(Z1 + Z2) (a_1' - a_2'), kept while F >= 0, no tension
+        open:   F = 0, v_i = a_i',  gap grows by v_2 - v_1
+    with a_i' the returning wave; the new one is a_1 = v_1 - F/Z1, a_2 = v_2 + F/Z2.
+
+    times [T]   m + 1 ends of the intervals on which everything at the interface is constant
+    force [F], v1, v2 [L T-1]   the m values: contact force, velocities of the two contact ends
+    """
+
+    def __init__(self, bar1, bar2, gap, tend):
+        self.bars, self.gap, self.tend = (bar1, bar2), gap, tend
+        tolerance = 1e-12 * max(bar1.round_trip, bar2.round_trip, tend)
+        self.waves = Wave(bar1.velocity, tolerance), Wave(bar2.velocity, tolerance)
+        self._march()
+        span = np.diff(self.times)
+        self._u1, self._u2, self._impulse = (
+            np.concatenate(([0.0], np.cumsum(rate * span)))
+            for rate in (self.v1, self.v2, self.force_steps))
+
+    def _march(self):
+        """March from event to event and keep the interface values."""
+        t, gap, rows = 0.0, self.gap, []
+        while t < self.tend:
+            force, v1, v2, closed = self._interface(t, gap)
+            rows.append((t, force, v1, v2))
+            self._emit(t, force, v1, v2)
+            t_next = self._next_event(t)
+            closing = t + gap / (v1 - v2) if not closed and v1 > v2 else float("inf")
+            if closed or closing <= t_next:
+                gap, t = 0.0, min(t_next, closing)
+            else:
+                gap, t = gap + (v2 - v1) * (t_next - t), t_next
+        starts, self.force_steps, self.v1, self.v2 = np.array(rows).T
+        self.times = np.append(starts, self.tend)
+
+    def _interface(self, t, gap):
+        """Force, end velocities and status just after t; round-off of the force is no force."""
+        bar1, bar2 = self.bars
+        back1 = self.waves[0].at(t - bar1.round_trip)
+        back2 = self.waves[1].at(t - bar2.round_trip)
+        common, force = interface(bar1.impedance, bar2.impedance, back1, back2)
+        speed = abs(bar1.velocity - bar2.velocity)
+        if abs(force) <= 1e-13 * interface(bar1.impedance, bar2.impedance, speed, 0.0)[1]:
+            return 0.0, back1, back2, gap <= 0.0
+        if gap <= 0.0 and force > 0.0:
+            return force, common, common, True
+        return 0.0, back1, back2, False
+
+    def _emit(self, t, force, v1, v2):
+        """Waves that leave the interface at t."""
+        self.waves[0].append(t, v1 - force / self.bars[0].impedance)
+        self.waves[1].append(t, v2 + force / self.bars[1].impedance)
+
+    def _next_event(self, t):
+        """Time of the next returning change, at most the end."""
+        returns = [wave.next_change(t - bar.round_trip) + bar.round_trip
+                   for bar, wave in zip(self.bars, self.waves)]
+        return min(self.tend, *returns)
+
+    # ---- results, for numbers or arrays of times [T]
+
+    def displacement(self, t):
+        """Displacements of the two contact ends [L]."""
+        return np.interp(t, self.times, self._u1), np.interp(t, self.times, self._u2)
+
+    def tip(self, t):
+        """Displacement of the contact end of bar 1 [L]."""
+        return np.interp(t, self.times, self._u1)
+
+    def impulse(self, t):
+        """Impulse of the contact force since t = 0 [F T]."""
+        return np.interp(t, self.times, self._impulse)
+
+    def force(self, t):
+        """Contact force just after t [F]."""
+        k = np.searchsorted(self.times, t, side="right") - 1
+        return self.force_steps[np.clip(k, 0, len(self.force_steps) - 1)]
+
+    def mean_force(self, start, end):
+        """Mean contact force over intervals [F]: impulse over duration."""
+        return (self.impulse(end) - self.impulse(start)) / (np.asarray(end) - start)
+
+    def step_forces(self, dt, steps):
+        """Mean force of each of the steps ((k - 1) dt, k dt], k = 1..steps [F]."""
+        t = dt * np.arange(steps + 1)
+        return self.mean_force(t[:-1], t[1:])
+
+    @property
+    def touch(self):
+        """Time of the first touch [T]."""
+        return touch_time(self.gap, self.bars[0].velocity, self.bars[1].velocity)
+
+    @property
+    def release(self):
+        """End of the last interval with force [T]; inf if there was no contact."""
+        loaded = np.flatnonzero(self.force_steps > 0.0)
+        return self.times[loaded[-1] + 1] if loaded.size else float("inf")
+
+    @property
+    def momentum_scale(self):
+        """sum m |v| at the start [M L T-1]"""
+        return sum(bar.mass * abs(bar.velocity) for bar in self.bars)
+
+    @property
+    def energy(self):
+        """Energy at the start, sum m v^2/2 [F L]"""
+        return sum(0.5 * bar.mass * bar.velocity ** 2 for bar in self.bars)
+
+    def mean_velocities(self, t):
+        """Velocities of the centres of mass [L T-1]: v_i -+ impulse/m_i."""
+        bar1, bar2 = self.bars
+        return (bar1.velocity - self.impulse(t) / bar1.mass,
+                bar2.velocity + self.impulse(t) / bar2.mass)
+
+    def _leaving_and_returning(self, i, y, t):
+        """The two waves of bar i at distance y from the contact end: the one that left the
+        interface at t - y/c and the one that will be back at t + y/c."""
+        bar, wave = self.bars[i], self.waves[i]
+        leaving = wave.at(t - y / bar.speed)
+        return leaving, wave.at(t + y / bar.speed - bar.round_trip)
+
+    def field(self, i, y, t):
+        """Velocity [L T-1] and axial force (tension positive) [F] of bar i = 0, 1 at distance
+        y from its contact end:  v = (a + b)/2, N = Z (a - b)/2 with the sign of the side."""
+        leaving, back = self._leaving_and_returning(i, y, t)
+        sign = 1.0 if i == 0 else -1.0
+        return 0.5 * (leaving + back), sign * 0.5 * self.bars[i].impedance * (leaving - back)
+
+    def _bar_energies(self, i, t):
+        """Kinetic and strain energy of bar i at one time [F L], exact:
+        KE = rho A/8 int (a + b)^2 dy, SE = rho A/8 int (a - b)^2 dy."""
+        bar, wave = self.bars[i], self.waves[i]
+        change = np.array(wave.times[1:])
+        cuts = np.concatenate(([0.0, bar.length], bar.speed * (t - change),
+                               bar.speed * (change - t + bar.round_trip)))
+        cuts = np.unique(cuts[(cuts >= 0.0) & (cuts <= bar.length)])
+        pairs = [self._leaving_and_returning(i, y, t) for y in 0.5 * (cuts[:-1] + cuts[1:])]
+        a, b = np.array(pairs).T
+        weight = 0.125 * bar.line_mass * np.diff(cuts)
+        return np.sum(weight * (a + b) ** 2), np.sum(weight * (a - b) ** 2)
+
+    def energies(self, t):
+        """Kinetic and strain energy of both bars [F L]."""
+        values = [np.add(self._bar_energies(0, s), self._bar_energies(1, s))
+                  for s in np.atleast_1d(t)]
+        kinetic, strain = np.array(values).T
+        return (kinetic, strain) if np.ndim(t) else (kinetic[0], strain[0])
+
+
+def wall_impact(bar, gap, tend):
+    """Bar on a rigid wall at distance gap: the same as its mirror image at twice the gap."""
+    image = Bar(bar.length, bar.speed, bar.impedance, -bar.velocity)
+    return Impact(bar, image, 2.0 * gap, tend)
+
+
+def impact_of(meta, tend=None):
+    """Exact solution of the scene that make_bars.py describes (its dictionary or json)."""
+    bars = [Bar(b["length"], b["speed"], b["impedance"], b["velocity"]) for b in meta["bars"]]
+    tend = meta["tend"] if tend is None else tend
+    if meta["case"] == "wall":
+        return wall_impact(bars[0], meta["gap"], tend)
+    return Impact(bars[0], bars[1], meta["gap"], tend)
+
+
+# ---------------------------------------------------------------- command line
+
+def print_history(exact, rows):
+    """Table of the exact history at equal times."""
+    t = np.linspace(0.0, exact.tend, rows)
+    columns = (t, *exact.displacement(t), exact.force(t), *exact.energies(t),
+               *exact.mean_velocities(t))
+    names = ("time", "u1", "u2", "force", "kinetic", "strain", "v_cm1", "v_cm2")
+    print("#" + " ".join(n.rjust(14) for n in names))
+    for row in zip(*columns):
+        print(" " + " ".join("%14.6e" % value for value in row))
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(
+        description="Print the exact history of the impact of two bars (1-D waves).")
+    for name, default, text in (
+            ("length", 10.0, "of bar 1 [L]"), ("length2", None, "of bar 2, default equal"),
+            ("speed", 1000.0, "wave speed of bar 1 [L T-1]"), ("speed2", None, "of bar 2"),
+            ("impedance", 1.0, "rho c A of bar 1 [M T-1]"), ("impedance2", None, "of bar 2"),
+            ("v1", 1.0, "velocity of bar 1 [L T-1]"), ("v2", -1.0, "velocity of bar 2"),
+            ("gap", 0.02, "[L]"), ("tend", 0.04, "end of the history [T]")):
+        parser.add_argument("--" + name, type=float, default=default, help=text)
+    parser.add_argument("--rows", type=int, default=41, help="number of times (default 41)")
+    a = parser.parse_args(argv)
+    second = [a.length2, a.speed2, a.impedance2]
+    first = [a.length, a.speed, a.impedance]
+    second = [f if s is None else s for f, s in zip(first, second)]
+    print_history(Impact(Bar(*first, a.v1), Bar(*second, a.v2), a.gap, a.tend), a.rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Run the two-bar impact with each scheme, compare with the exact solution, draw the figures.
+
+Needs bin/bipact and the decks input/two_bars/newmark.k, theta.k, theta_dispersion.k.  Writes
+demo.out/NAME/ (the run directories) and demo.out/*.png: figures 1-4 of the paper and the
+contact force.  Exit code 1 if a run or a comparison fails.
+"""
+import argparse
+import os
+import resource
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+DECKS = ("newmark", "theta", "theta_dispersion")
+MASS = {"newmark": ("Newmark", "consistent"), "theta": ("theta", "consistent"),
+        "theta_dispersion": ("theta", "dispersion")}
+
+
+class DemoError(Exception):
+    """A run that failed; the text says which and why."""
+
+
+def child_seconds():
+    """CPU seconds of all finished child processes, user and system."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def run_deck(program, deck, directory):
+    """Run one deck; returns its CPU seconds."""
+    for path in (program, deck):
+        if not os.path.exists(path):
+            raise DemoError("%s is missing" % shown(path))
+    os.makedirs(directory, exist_ok=True)
+    before = child_seconds()
+    done = subprocess.run([program, deck, "-o", directory, "--quiet"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise DemoError("%s ended with exit code %d\n%s%s" % (
+            shown(deck), done.returncode, done.stdout, done.stderr))
+    return child_seconds() - before
+
+
+def shown(path):
+    """Path as seen from the current directory, if it is below it."""
+    relative = os.path.relpath(path)
+    return path if relative.startswith("..") else relative
+
+
+def run_all(a):
+    """{name: (run, measures, CPU seconds)} of the decks."""
+    from compare import Run, load_meta, measure
+    from plot_history import paper_scene
+    results = {}
+    for name in DECKS:
+        directory = os.path.join(a.out, name)
+        seconds = run_deck(a.bin, os.path.join(a.decks, name + ".k"), directory)
+        beside = os.path.join(a.decks, name + ".json")
+        meta = load_meta(beside) if os.path.exists(beside) else paper_scene()
+        run, measures = Run(directory, meta), measure(directory, meta)
+        if measures["status"] != "done" or measures["err"] is None:
+            raise DemoError("%s: the run is %s or lacks nodout rows of the contact face"
+                            % (shown(directory), measures["status"]))
+        results[name] = run, measures, seconds
+    return results
+
+
+def print_table(results):
+    """Small table of the results."""
+    print("scheme   mass             dt        err    E_end/E0    E_max/E0   CPU s")
+    for name, (run, m, seconds) in results.items():
+        print("%-8s %-10s %8.1e %10.2e %11.7f %11.7f %7.2f"
+              % (*MASS[name], run.dt, m["err"], m["E_end"], m["E_max"], seconds))
+
+
+def findings(results):
+    """What to look for in each figure, with the numbers of these runs."""
+    newmark, theta, exact = (results[name][1] for name in DECKS)
+    return [
+        "The end should stand still while the bars touch: error %.1f %%."
+        % (1e2 * newmark["err"]),
+        "The total energy should be constant: it reaches %.1f times its initial value."
+        % newmark["E_max"],
+        "The computed curve should cover the exact one: error %.2f %%." % (1e2 * theta["err"]),
+        "The total energy should be constant: greatest rise %.1g, change at the end %.2f %%."
+        % (theta["dE_max"], 1e2 * theta["dE_end"]),
+        "Consistent mass: the raw force alternates, its two-step mean shows the pulse. "
+        "Dispersion mass: the exact pulse (displacement error %.0e)." % exact["err"]]
+
+
+def draw_all(results, out):
+    """The figures: [(path, what to look for)]."""
+    import plot_history as plot
+    newmark, theta, dispersion = (results[name][0] for name in DECKS)
+    text = findings(results)
+
+    def at(name):   # path of a figure
+        return os.path.join(out, name + ".png")
+    panels = {"theta scheme, consistent mass": theta,
+              "theta scheme, dispersion mass": dispersion}
+    paths = [
+        plot.displacement(newmark, at("figure1_displacement_newmark"), "Newmark", text[0]),
+        plot.energies(newmark, at("figure2_energy_newmark"), "Newmark", text[1]),
+        plot.displacement(theta, at("figure3_displacement_theta"), "theta scheme", text[2]),
+        plot.energies(theta, at("figure4_energy_theta"), "theta scheme", text[3]),
+        plot.forces(panels, at("contact_force"), text[4])]
+    return list(zip(paths, text))
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", default=os.path.join(ROOT, "bin", "bipact"), help="program")
+    parser.add_argument("--decks", default=os.path.join(ROOT, "input", "two_bars"),
+                        help="directory of the decks")
+    parser.add_argument("--out", default=os.path.join(ROOT, "demo.out"), help="results")
+    a = parser.parse_args(argv)
+    try:
+        results = run_all(a)
+        print_table(results)
+        figures = draw_all(results, a.out)
+    except Exception as problem:   # whatever fails, the demo fails with one clear message
+        print("demo failed: %s" % problem, file=sys.stderr)
+        return 1
+    print("\nFigures:")
+    for path, text in figures:
+        print("  %s\n      %s" % (shown(path), text))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,87 @@
+#!/bin/sh
+# Installs what building and testing need, and only what is missing.
+#   --dry-run   print what would be done
+# FC and PYTHON name other programs than gfortran and python3.
+set -u
+
+dry_run=
+[ "${1:-}" = --dry-run ] && dry_run=1
+fc=${FC:-gfortran}
+python=${PYTHON:-python3}
+
+# The compiler knows where libraries are, whichever package or hand put them there.
+# Without a compiler they count as missing; installing an installed package does no harm.
+has_library() {
+  for suffix in a so dylib; do
+    case $("$fc" -print-file-name="lib$1.$suffix" 2>/dev/null) in
+      /*) return 0 ;;
+    esac
+  done
+  return 1
+}
+
+# Sets `missing` to the Debian packages that are needed.
+look() {
+  missing=
+  command -v "$fc" >/dev/null 2>&1 || missing="$missing gfortran"
+  command -v make >/dev/null 2>&1 || missing="$missing make"
+  has_library lapack || missing="$missing liblapack-dev"
+  has_library blas || missing="$missing libblas-dev"
+  has_library metis || missing="$missing libmetis-dev"
+  # An existing .venv of ours shows that Python can make one, and is quicker to ask.
+  [ -x .venv/bin/python ] || "$python" -c 'import venv, ensurepip' >/dev/null 2>&1 \
+    || missing="$missing python3 python3-venv"
+}
+
+cd "$(dirname "$0")/.." || exit 1
+look
+if [ -z "$missing" ]; then
+  [ -z "$dry_run" ] || echo "nothing to install"
+  exit 0
+fi
+
+if ! command -v apt-get >/dev/null 2>&1; then
+  echo "Missing (Debian package names):$missing"
+  echo "bipact needs gfortran, make, LAPACK, BLAS and METIS with their headers, and python3 with"
+  echo "venv. Please install them with the package manager of this system, then try again."
+  exit 1
+fi
+
+if [ -n "$dry_run" ]; then
+  echo "would run: apt-get update && apt-get install -y$missing"
+  exit 0
+fi
+
+if [ "$(id -u)" = 0 ]; then
+  as_root=
+elif sudo -n true 2>/dev/null; then
+  as_root="sudo -n"
+else
+  echo "Packages are missing and installing them needs root. Please run:"
+  echo "  sudo apt-get update && sudo apt-get install -y$missing"
+  exit 1
+fi
+
+install() {
+  # The lock option waits for another installation instead of failing.
+  apt="$as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300"
+  $apt update    # may fail for a source that does not matter here
+  # shellcheck disable=SC2086
+  $apt install -y --no-install-recommends $missing
+}
+
+echo "installing:$missing"
+log=$(mktemp)
+if ! install >"$log" 2>&1; then
+  echo "the installation failed, trying once more"
+  sleep 5
+  install >"$log" 2>&1 || { cat "$log"; rm -f "$log"; exit 1; }
+fi
+rm -f "$log"
+
+look
+if [ -n "$missing" ]; then
+  echo "Still missing after the installation:$missing"
+  echo "(FC is \"$fc\", python is \"$(command -v "$python")\": are these the ones meant?)"
+  exit 1
+fi

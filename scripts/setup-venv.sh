@@ -1,0 +1,35 @@
+#!/bin/sh
+# Makes .venv with the packages of requirements.txt, when it is missing or they changed.
+# PYTHON names another interpreter than python3.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+
+python=${PYTHON:-python3}
+stamp=.venv/installed-requirements.txt     # copied last: an interrupted attempt leaves none
+if [ -x .venv/bin/python ] && cmp -s requirements.txt "$stamp"; then
+  exit 0
+fi
+
+if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 9))' 2>/dev/null; then
+  echo "setup-venv: \"$python\" is missing or older than Python 3.9; set PYTHON to a newer one."
+  exit 1
+fi
+if ! "$python" -c 'import venv, ensurepip' 2>/dev/null; then
+  echo "setup-venv: \"$(command -v "$python")\" has no venv or no ensurepip module."
+  echo "Run \"make deps\" (on Debian they are in the package python3-venv), or set PYTHON."
+  exit 1
+fi
+
+fetch() {
+  .venv/bin/python -m pip install --quiet --disable-pip-version-check --prefer-binary \
+    -r requirements.txt
+}
+
+echo "making .venv with the packages of requirements.txt"
+"$python" -m venv --clear .venv || exit 1
+if ! fetch; then
+  echo "setup-venv: pip failed, trying once more"
+  sleep 5
+  fetch || { echo "setup-venv: the packages could not be installed."; exit 1; }
+fi
+cp requirements.txt "$stamp"

@@ -1,0 +1,104 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Element masses: consistent, lumped, dispersion-tuned; and where the mass of massless contact
+!> nodes goes.
+module assembly_mass
+  use base_kinds, only: wp, zero, one
+  use base_status, only: status_t, fail, status_deck
+  use base_strings, only: to_text
+  use element_base, only: element_t
+  use model_data, only: model_t
+  implicit none
+  private
+  public :: element_mass, redistribution_targets
+
+contains
+
+  !> Mass (4, 4) [M] of element e by the type asked for. CONSISTENT: Gauss points. LUMPED: its
+  !> row
+  !> sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu = c dt/h per direction, clipped
+  !> to
+  !> [0, 1] (Guddati & Yue 2004, tuned to the theta-method at theta = xi = 1/2).
+  pure subroutine element_mass(model, element, e, me)
+    type(model_t), intent(in) :: model
+    class(element_t), intent(in) :: element
+    integer, intent(in) :: e
+    real(wp), intent(out) :: me(4, 4)
+    real(wp) :: x(2, 4), nu(2), a(2), density
+    integer :: k
+    associate (part => model%part(model%element_part(e)), controls => model%controls)
+      x = model%x(:, model%connectivity(:, e))
+      density = model%material(part%material)%item%density
+      a = one/sqrt(3.0_wp)
+      if (controls%mass == 'DISPERSION') then
+        nu = controls%courant
+        if (controls%courant < zero) nu = controls%dt* &
+          model%material(part%material)%item%wave_speed(part%plane)/element%widths(x)
+        nu = min(one, max(zero, nu))
+        a = sqrt(2.0_wp/3.0_wp*(one - nu)*(one + nu))
+      end if
+      call element%mass(x, density, part%thickness, a, me)
+    end associate
+    if (model%controls%mass == 'LUMPED') then
+      do k = 1, 4
+        me(k, k) = sum(me(:, k))
+      end do
+      do k = 1, 4
+        me(k + 1:, k) = zero
+        me(:k - 1, k) = zero
+      end do
+    end if
+  end subroutine element_mass
+
+  !> Where the mass of each node goes: itself, or for a massless contact node the inner
+  !> neighbours,
+  !> i.e. the nodes joined to it by an element edge that are no contact nodes themselves.
+  !> Rows first(n+1), target(:). Fails when a contact node has none.
+  subroutine redistribution_targets(model, massless, first, target, status)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: massless(:)
+    integer, allocatable, intent(out) :: first(:), target(:)
+    type(status_t), intent(inout) :: status
+    integer, allocatable :: inner(:, :), count(:)
+    logical, allocatable :: is_contact(:)
+    integer :: i
+    allocate (is_contact(model%nodes), inner(32, model%nodes), count(model%nodes))
+    allocate (first(model%nodes + 1))
+    is_contact = .false.
+    is_contact(massless) = .true.
+    count = 0
+    if (size(massless) > 0) call find_inner(model, is_contact, inner, count)
+    first(1) = 1
+    do i = 1, model%nodes
+      first(i + 1) = first(i) + merge(count(i), 1, is_contact(i))
+      if (is_contact(i) .and. count(i) == 0) call fail(status, status_deck, &
+        'REDIST 1: contact node '//to_text(model%node_id(i))//' has no inner neighbour', &
+        hint='use REDIST 0, or more than one element across the body')
+    end do
+    allocate (target(first(model%nodes + 1) - 1))
+    do i = 1, model%nodes
+      target(first(i):first(i + 1) - 1) = inner(1:first(i + 1) - first(i), i)
+      if (.not. is_contact(i)) target(first(i)) = i
+    end do
+  end subroutine redistribution_targets
+
+  pure subroutine find_inner(model, is_contact, inner, count)
+    type(model_t), intent(in) :: model
+    logical, intent(in) :: is_contact(:)
+    integer, intent(inout) :: inner(:, :), count(:)
+    integer :: e, k, s, i, j
+    do e = 1, model%elements
+      do k = 1, 4
+        i = model%connectivity(k, e)
+        if (.not. is_contact(i)) cycle
+        do s = 1, 3, 2
+          j = model%connectivity(1 + mod(k - 1 + s, 4), e)
+          if (is_contact(j) .or. count(i) == size(inner, 1)) cycle
+          if (any(inner(1:count(i), i) == j)) cycle
+          count(i) = count(i) + 1
+          inner(count(i), i) = j
+        end do
+      end do
+    end do
+  end subroutine find_inner
+
+end module assembly_mass

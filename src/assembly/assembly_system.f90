@@ -1,0 +1,239 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The matrices of the bodies: node graph, mass, element stiffness, and the effective matrix of
+!> a
+!> time scheme, A = cM M + cC C + cK K (no damping yet: C = 0).
+module assembly_system
+  use base_kinds, only: wp, zero, one
+  use base_status, only: status_t, failed
+  use assembly_mass, only: element_mass, redistribution_targets
+  use element_base, only: element_t
+  use element_registry, only: make_element
+  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product
+  use model_data, only: model_t
+  implicit none
+  private
+
+  type, public :: system_t
+    integer :: n = 0
+    type(graph_t) :: graph
+    real(wp), allocatable :: mass(:)          !< node-scalar mass on the graph [M]
+    logical :: mass_is_diagonal = .false.
+    !> (n) row sums of the mass [M]: body loads, momentum
+    real(wp), allocatable :: lumped(:)
+    integer, allocatable :: corner(:, :)      !< (4, ne) rows of nodes
+    !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
+    !> drops out before anything is multiplied, so a flying body has no internal force at all.
+    real(wp), allocatable :: stiffness(:, :, :)
+    logical, allocatable :: fixed(:, :)       !< (2, n)
+    logical :: any_fixed = .false.
+    integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
+  end type system_t
+
+  public :: make_system, effective_matrix, multiply_mass, clear_fixed
+
+contains
+
+  !> Graph, mass and stiffness of a model; massless(:) = contact nodes whose mass goes to their
+  !> inner neighbours (empty without REDIST). Fails when such a node has no inner neighbour.
+  subroutine make_system(model, massless, system, status)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: massless(:)
+    type(system_t), intent(out) :: system
+    type(status_t), intent(inout) :: status
+    integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
+    integer :: k
+    system%n = model%nodes
+    system%corner = model%connectivity
+    call redistribution_targets(model, massless, first, target, status)
+    if (failed(status)) return
+    call element_cliques(model, first, target, clique_first, clique)
+    call graph_from_cliques(model%nodes, clique_first, clique, system%graph)
+    call assemble_mass(model, first, target, system)
+    call assemble_stiffness(model, system)
+    system%fixed = model%fixed
+    system%any_fixed = any(model%fixed)
+    allocate (system%fixed_list(2, count(model%fixed)))
+    system%fixed_list(1, :) = pack(spread([1, 2], 2, model%nodes), model%fixed)
+    system%fixed_list(2, :) = pack(spread([(k, k=1, model%nodes)], 1, 2), model%fixed)
+  end subroutine make_system
+
+  !> Each element's nodes together with the nodes that take over their mass.
+  pure subroutine element_cliques(model, first, target, clique_first, clique)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: first(:), target(:)
+    integer, allocatable, intent(out) :: clique_first(:), clique(:)
+    integer :: e, k, i, m, pass
+    allocate (clique_first(model%elements + 1))
+    do pass = 1, 2
+      m = 0
+      do e = 1, model%elements
+        clique_first(e) = m + 1
+        do k = 1, 4
+          i = model%connectivity(k, e)
+          m = m + 1
+          if (pass == 2) clique(m) = i
+          if (first(i + 1) - first(i) == 1) then
+            if (target(first(i)) == i) cycle
+          end if
+          if (pass == 2) clique(m + 1:m + first(i + 1) - first(i)) &
+            = target(first(i):first(i + 1) - 1)
+          m = m + first(i + 1) - first(i)
+        end do
+      end do
+      clique_first(model%elements + 1) = m + 1
+      if (pass == 1) allocate (clique(m))
+    end do
+  end subroutine element_cliques
+
+  !> M* = T' M T: the rows and columns of a massless node go to its targets, in equal shares.
+  subroutine assemble_mass(model, first, target, system)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: first(:), target(:)
+    type(system_t), intent(inout) :: system
+    class(element_t), allocatable :: element
+    real(wp) :: me(4, 4), share
+    integer :: e, i, j, a, b, position
+    call make_element(4, element)
+    allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
+    system%mass = zero
+    do e = 1, model%elements
+      call element_mass(model, element, e, me)
+      do j = 1, 4
+        associate (nj => model%connectivity(j, e))
+          do i = 1, 4
+            associate (ni => model%connectivity(i, e))
+              share = me(i, j)/real((first(ni + 1) - first(ni))*(first(nj + 1) - first(nj)), wp)
+              do b = first(nj), first(nj + 1) - 1
+                do a = first(ni), first(ni + 1) - 1
+                  position = system%graph%position(target(a), target(b))
+                  system%mass(position) = system%mass(position) + share
+                end do
+              end do
+            end associate
+          end do
+        end associate
+      end do
+    end do
+    call row_sums(system)
+  end subroutine assemble_mass
+
+  pure subroutine row_sums(system)
+    type(system_t), intent(inout) :: system
+    integer :: i, k
+    system%mass_is_diagonal = .true.
+    do i = 1, system%n
+      system%lumped(i) = zero
+      do k = system%graph%first(i), system%graph%first(i + 1) - 1
+        system%lumped(i) = system%lumped(i) + system%mass(k)
+        if (system%graph%column(k) /= i .and. abs(system%mass(k)) > zero) &
+          system%mass_is_diagonal = .false.
+      end do
+    end do
+  end subroutine row_sums
+
+  subroutine assemble_stiffness(model, system)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(inout) :: system
+    class(element_t), allocatable :: element
+    real(wp) :: ke(8, 8)
+    integer :: e
+    call make_element(4, element)
+    allocate (system%stiffness(6, 6, model%elements))
+    do e = 1, model%elements
+      associate (part => model%part(model%element_part(e)))
+        call element%stiffness(model%x(:, model%connectivity(:, e)), &
+                               model%material(part%material)%item%moduli(part%plane), &
+                               part%thickness, ke)
+      end associate
+      system%stiffness(:, :, e) = ke(3:8, 3:8)
+    end do
+  end subroutine assemble_stiffness
+
+  !> A = cM M + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal only,
+  !> so
+  !> that a right-hand side of zero there gives a displacement of zero.
+  subroutine effective_matrix(system, c_m, c_k, matrix)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: c_m, c_k
+    type(block_matrix_t), intent(inout) :: matrix
+    integer :: i, k
+    if (.not. allocated(matrix%value)) allocate (matrix%value(2, 2, size(system%graph%column)))
+    matrix%value = zero
+    if (abs(c_k) > zero) call add_stiffness(system, c_k, matrix)
+    do k = 1, size(system%graph%column)
+      matrix%value(1, 1, k) = matrix%value(1, 1, k) + c_m*system%mass(k)
+      matrix%value(2, 2, k) = matrix%value(2, 2, k) + c_m*system%mass(k)
+    end do
+    if (.not. system%any_fixed) return
+    do i = 1, system%n
+      do k = system%graph%first(i), system%graph%first(i + 1) - 1
+        call clear_block(system%fixed(:, i), system%fixed(:, system%graph%column(k)), &
+                         system%graph%column(k) == i, matrix%value(:, :, k))
+      end do
+    end do
+  end subroutine effective_matrix
+
+  pure subroutine clear_block(row, column, diagonal, block)
+    logical, intent(in) :: row(2), column(2), diagonal
+    real(wp), intent(inout) :: block(2, 2)
+    integer :: a, b
+    do b = 1, 2
+      do a = 1, 2
+        if ((row(a) .or. column(b)) .and. .not. (diagonal .and. a == b)) block(a, b) = zero
+      end do
+    end do
+  end subroutine clear_block
+
+  subroutine add_stiffness(system, c_k, matrix)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: c_k
+    type(block_matrix_t), intent(inout) :: matrix
+    real(wp) :: ke(8, 8)
+    integer :: e, i, j, k
+    do e = 1, size(system%corner, 2)
+      ke(3:8, 3:8) = c_k*system%stiffness(:, :, e)
+      do i = 1, 2
+        ke(i, 3:8) = -(ke(i + 2, 3:8) + ke(i + 4, 3:8) + ke(i + 6, 3:8))
+      end do
+      ke(3:8, 1:2) = transpose(ke(1:2, 3:8))
+      do i = 1, 2
+        ke(i, 1:2) = -(ke(i + 2, 1:2) + ke(i + 4, 1:2) + ke(i + 6, 1:2))
+      end do
+      do j = 1, 4
+        do i = 1, 4
+          k = system%graph%position(system%corner(i, e), system%corner(j, e))
+          matrix%value(:, :, k) = matrix%value(:, :, k) + ke(2*i - 1:2*i, 2*j - 1:2*j)
+        end do
+      end do
+    end do
+  end subroutine add_stiffness
+
+  !> y = y + factor * M x.
+  subroutine multiply_mass(system, factor, x, y)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: y(:, :)
+    integer :: i
+    if (system%mass_is_diagonal) then
+      do i = 1, system%n
+        y(1, i) = y(1, i) + factor*system%lumped(i)*x(1, i)
+        y(2, i) = y(2, i) + factor*system%lumped(i)*x(2, i)
+      end do
+    else
+      call scalar_product(system%n, system%graph%first, system%graph%column, system%mass, &
+        factor, x, y)
+    end if
+  end subroutine multiply_mass
+
+  !> Sets the entries of fixed dofs to zero.
+  pure subroutine clear_fixed(system, x)
+    type(system_t), intent(in) :: system
+    real(wp), intent(inout) :: x(:, :)
+    integer :: k
+    do k = 1, size(system%fixed_list, 2)
+      x(system%fixed_list(1, k), system%fixed_list(2, k)) = zero
+    end do
+  end subroutine clear_fixed
+
+end module assembly_system

@@ -1,0 +1,92 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Sorting and searching of integers.
+module base_sort
+  implicit none
+  private
+  public :: sort_order, find_sorted, sort_integers
+
+contains
+
+  !> order such that key(order) does not decrease; stable (merge sort).
+  pure subroutine sort_order(key, order)
+    integer, intent(in) :: key(:)
+    integer, intent(out) :: order(:)
+    integer, allocatable :: other(:)
+    integer :: n, width, first
+    n = size(key)
+    order = [(first, first=1, n)]
+    if (n < 2) return
+    if (all(key(2:) >= key(:n - 1))) return
+    allocate (other(n))
+    width = 1
+    do while (width < n)
+      do first = 1, n, 2*width
+        call merge_runs(key, order, other, first, min(first + width, n + 1), &
+          min(first + 2*width, n + 1))
+      end do
+      order = other
+      width = 2*width
+    end do
+  end subroutine sort_order
+
+  !> Merges order(first:middle-1) and order(middle:last-1) into other(first:last-1).
+  pure subroutine merge_runs(key, order, other, first, middle, last)
+    integer, intent(in) :: key(:)
+    integer, intent(in) :: order(:)
+    integer, intent(inout) :: other(:)
+    integer, intent(in) :: first, middle, last
+    integer :: i, j, k
+    logical :: left
+    i = first
+    j = middle
+    do k = first, last - 1
+      left = j >= last
+      if (.not. left .and. i < middle) left = key(order(i)) <= key(order(j))
+      if (left) then
+        other(k) = order(i)
+        i = i + 1
+      else
+        other(k) = order(j)
+        j = j + 1
+      end if
+    end do
+  end subroutine merge_runs
+
+  !> Sorts a short list in place (insertion sort: the lists are rows of a sparse graph).
+  pure subroutine sort_integers(list)
+    integer, intent(inout) :: list(:)
+    integer :: i, j, item
+    do i = 2, size(list)
+      item = list(i)
+      j = i - 1
+      do while (j >= 1)
+        if (list(j) <= item) exit
+        list(j + 1) = list(j)
+        j = j - 1
+      end do
+      list(j + 1) = item
+    end do
+  end subroutine sort_integers
+
+  !> Position of item in an increasing list, 0 if it is not there.
+  pure integer function find_sorted(list, item)
+    integer, intent(in) :: list(:)
+    integer, intent(in) :: item
+    integer :: low, high, middle
+    low = 1
+    high = size(list)
+    find_sorted = 0
+    do while (low <= high)
+      middle = low + (high - low)/2
+      if (list(middle) == item) then
+        find_sorted = middle
+        return
+      else if (list(middle) < item) then
+        low = middle + 1
+      else
+        high = middle - 1
+      end if
+    end do
+  end function find_sorted
+
+end module base_sort

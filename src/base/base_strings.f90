@@ -1,0 +1,127 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Small text helpers; no input or output.
+module base_strings
+  use base_kinds, only: wp, i8
+  implicit none
+  private
+  public :: upper, to_text, short_real, join_path, folder_of, stem_of, edit_distance
+
+  interface to_text
+    module procedure :: integer_text
+    module procedure :: long_text
+    module procedure :: real_text_short
+  end interface to_text
+
+contains
+
+  !> ASCII upper case.
+  pure function upper(text) result(up)
+    character(*), intent(in) :: text
+    character(len(text)) :: up
+    integer :: i, c
+    up = text
+    do i = 1, len(text)
+      c = iachar(text(i:i))
+      if (c >= 97 .and. c <= 122) up(i:i) = achar(c - 32)
+    end do
+  end function upper
+
+  !> An integer without blanks.
+  pure function integer_text(number) result(text)
+    integer, intent(in) :: number
+    character(:), allocatable :: text
+    character(12) :: buffer
+    write (buffer, '(i0)') number
+    text = trim(buffer)
+  end function integer_text
+
+  !> A long integer without blanks.
+  pure function long_text(number) result(text)
+    integer(i8), intent(in) :: number
+    character(:), allocatable :: text
+    character(24) :: buffer
+    write (buffer, '(i0)') number
+    text = trim(buffer)
+  end function long_text
+
+  !> A real for messages and logs: six digits, no blanks.
+  pure function real_text_short(number) result(text)
+    real(wp), intent(in) :: number
+    character(:), allocatable :: text
+    character(24) :: buffer
+    write (buffer, '(es14.6e3)') number
+    text = short_real(trim(adjustl(buffer)))
+  end function real_text_short
+
+  !> Takes the zeros out of an exponential number: 1.500000E-003 becomes 1.5E-3, 2.0E+000
+  !> becomes 2.0.
+  pure function short_real(long) result(text)
+    character(*), intent(in) :: long
+    character(:), allocatable :: text
+    integer :: e, last, power, ios
+    character(8) :: buffer
+    e = index(long, 'E')
+    if (e == 0) then
+      text = long
+      return
+    end if
+    last = e - 1
+    do while (long(last:last) == '0' .and. long(last - 1:last - 1) /= '.')
+      last = last - 1
+    end do
+    read (long(e + 1:), *, iostat=ios) power
+    text = long(1:last)
+    if (power == 0 .or. ios /= 0) return
+    write (buffer, '(i0)') power
+    text = text//'E'//trim(buffer)
+  end function short_real
+
+  !> Joins a folder and a file name.
+  pure function join_path(folder, name) result(path)
+    character(*), intent(in) :: folder
+    character(*), intent(in) :: name
+    character(:), allocatable :: path
+    if (len(folder) == 0 .or. name(1:min(1, len(name))) == '/') then
+      path = name
+    else
+      path = folder//'/'//name
+    end if
+  end function join_path
+
+  !> The folder of a path, without the last slash; empty for a bare file name.
+  pure function folder_of(path) result(folder)
+    character(*), intent(in) :: path
+    character(:), allocatable :: folder
+    folder = path(1:max(0, index(path, '/', back=.true.) - 1))
+  end function folder_of
+
+  !> The file name of a path without its folder and its last suffix.
+  pure function stem_of(path) result(stem)
+    character(*), intent(in) :: path
+    character(:), allocatable :: stem
+    integer :: dot
+    stem = path(index(path, '/', back=.true.) + 1:)
+    dot = index(stem, '.', back=.true.)
+    if (dot > 1) stem = stem(1:dot - 1)
+  end function stem_of
+
+  !> Number of single-character edits between two words (Levenshtein 1966), to suggest a near
+  !> name.
+  pure integer function edit_distance(a, b)
+    character(*), intent(in) :: a
+    character(*), intent(in) :: b
+    integer :: row(0:len(b)), i, j, corner, old
+    row = [(j, j=0, len(b))]
+    do i = 1, len(a)
+      corner = row(0)
+      row(0) = i
+      do j = 1, len(b)
+        old = row(j)
+        row(j) = min(row(j - 1) + 1, old + 1, corner + merge(0, 1, a(i:i) == b(j:j)))
+        corner = old
+      end do
+    end do
+    edit_distance = row(len(b))
+  end function edit_distance
+
+end module base_strings

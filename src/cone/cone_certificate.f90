@@ -1,0 +1,84 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How good a solution is: the natural map, scaled so that no unit enters, and the bi-potential.
+module cone_certificate
+  use base_kinds, only: wp, zero, one
+  use cone_types, only: certificate_t
+  use cone_local, only: project_on_cone, tangent_length
+  implicit none
+  private
+  public :: certify, bipotential_residual, mean_diagonal
+
+  real(wp), parameter :: nothing = 1.0e-300_wp
+
+contains
+
+  !> e = b(-u, r) + u.r = mu r_n |u_t| + r_t.u_t + r_n u_n of one contact [F L]: zero exactly
+  !> where
+  !> the law of contact and friction holds (De Saxce & Feng 1998); an energy misfit.
+  pure real(wp) function bipotential_residual(mu, r, u)
+    real(wp), intent(in) :: mu
+    real(wp), intent(in) :: r(:)
+    real(wp), intent(in) :: u(:)
+    bipotential_residual = mu*r(1)*tangent_length(u) + dot_product(r, u)
+  end function bipotential_residual
+
+  !> Mean of the diagonal of W [L/F]: the scale between forces and motions.
+  pure real(wp) function mean_diagonal(w)
+    real(wp), intent(in) :: w(:, :)
+    integer :: i
+    mean_diagonal = zero
+    do i = 1, size(w, 1)
+      mean_diagonal = mean_diagonal + w(i, i)
+    end do
+    mean_diagonal = mean_diagonal/max(1, size(w, 1))
+  end function mean_diagonal
+
+  !> error, error2018 and eta of (r, u); m = mean_diagonal(W).
+  pure subroutine certify(m, mu, q, r, u, tolerance, certificate)
+    real(wp), intent(in) :: m
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: q(:, :)
+    real(wp), intent(in) :: r(:, :)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in) :: tolerance
+    type(certificate_t), intent(inout) :: certificate
+    real(wp) :: misfit, norm_r, norm_q, norm_u, bottom
+    integer :: a
+    norm_r = sqrt(sum(r**2))
+    norm_q = sqrt(sum(q**2))
+    norm_u = sqrt(sum(u**2))
+    certificate%error = zero
+    certificate%eta = zero
+    certificate%error2018 = zero
+    if (all(q(1, :) >= zero) .and. norm_r <= zero) return
+    misfit = zero
+    do a = 1, size(mu)
+      misfit = misfit + abs(bipotential_residual(mu(a), r(:, a), u(:, a)))
+    end do
+    bottom = max(norm_r, max(norm_q, norm_u)/m)
+    if (bottom > nothing) certificate%error = natural_map(one/m, mu, r, u)/bottom
+    bottom = norm_r*max(norm_u, norm_q)
+    if (bottom > nothing) certificate%eta = misfit/bottom
+    if (norm_q > nothing) certificate%error2018 = natural_map(one, mu, r, u)/norm_q
+    certificate%met = certificate%error <= tolerance .and. certificate%eta <= tolerance
+  end subroutine certify
+
+  !> |r - P_K(r - rho (u_n + mu |u_t|, u_t))| over all contacts.
+  pure real(wp) function natural_map(rho, mu, r, u)
+    real(wp), intent(in) :: rho
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: r(:, :)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), dimension(size(r, 1)) :: tau, projected
+    integer :: a, status
+    natural_map = zero
+    do a = 1, size(mu)
+      tau = r(:, a) - rho*u(:, a)
+      tau(1) = tau(1) - rho*mu(a)*tangent_length(u(:, a))
+      call project_on_cone(mu(a), tau, projected, status)
+      natural_map = natural_map + sum((r(:, a) - projected)**2)
+    end do
+    natural_map = sqrt(natural_map)
+  end function natural_map
+
+end module cone_certificate

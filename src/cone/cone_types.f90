@@ -1,0 +1,74 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The discrete contact problem and what is said of its solution.
+!> Given u = W r + q, find r in Coulomb's cone K of every contact so that (u_n + mu |u_t|, u_t)
+!> lies
+!> in the dual cone and is orthogonal to r (De Saxce & Feng 1991, 1998). Contact a owns
+!> components
+!> (1, a) normal, (2.., a) tangential; without friction d = 1.
+module cone_types
+  use base_kinds, only: wp, zero
+  implicit none
+  private
+  integer, parameter, public :: contact_open = 0
+  integer, parameter, public :: contact_stick = 1
+  integer, parameter, public :: contact_slip = 2
+
+  type, public :: cone_options_t
+    character(8) :: solver = 'AUTO'      !< AUTO, GS
+    real(wp) :: tolerance = 1.0e-10_wp   !< on error and on eta
+    integer :: max_sweeps = 10000
+    real(wp) :: rho_factor = 1.0_wp      !< rho = factor / lmax(W_aa)
+    real(wp) :: local_tolerance = 1.0e-2_wp
+    integer :: max_local = 50
+    logical :: warm_start = .true.
+  end type cone_options_t
+
+  !> Every answer carries it (conventions: error is unit-free, eta the normalised bi-potential
+  !> residual).
+  type, public :: certificate_t
+    real(wp) :: error = zero
+    !> |natural map with rho = 1| / |q| (Acary, Bremond & Huber 2018)
+    real(wp) :: error2018 = zero
+    real(wp) :: eta = zero
+    integer :: sweeps = 0
+    integer :: local_iterations = 0
+    integer :: polishes = 0        !< direct solves for given statuses
+    logical :: met = .true.
+  end type certificate_t
+
+  !> Work space of the solver, made once per size, so that nothing is allocated in a step.
+  type, public :: cone_work_t
+    integer :: contacts = -1
+    integer :: d = 0
+    real(wp), allocatable :: u(:, :)       !< (d, nc) relative motion for the current r
+    real(wp), allocatable :: rho(:)        !< (nc) [1/flexibility]
+    real(wp), allocatable :: trial(:, :)   !< (d, nc) reactions of a polish
+    integer, allocatable :: status(:), tried(:)
+    real(wp), allocatable :: matrix(:, :), rhs(:)
+    integer, allocatable :: pivot(:), unknown(:, :)
+  end type cone_work_t
+
+  public :: size_cone_work
+
+contains
+
+  !> Makes the work space for nc contacts of d components; does nothing when it fits already.
+  pure subroutine size_cone_work(work, d, contacts)
+    type(cone_work_t), intent(inout) :: work
+    integer, intent(in) :: d
+    integer, intent(in) :: contacts
+    integer :: n
+    if (work%contacts == contacts .and. work%d == d) return
+    n = d*contacts
+    if (allocated(work%u)) then
+      deallocate (work%u, work%rho, work%trial, work%status, work%tried)
+      deallocate (work%matrix, work%rhs, work%pivot, work%unknown)
+    end if
+    allocate (work%u(d, contacts), work%rho(contacts), work%trial(d, contacts))
+    allocate (work%status(contacts), work%tried(contacts))
+    allocate (work%matrix(n, n), work%rhs(n), work%pivot(n), work%unknown(2, n))
+    work%contacts = contacts
+    work%d = d
+  end subroutine size_cone_work
+
+end module cone_types

@@ -1,0 +1,131 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Contact at the start of a run, and the decision to search.
+module contact_setup
+  use base_kinds, only: wp, zero, one
+  use base_status, only: status_t, failed
+  use cone_types, only: cone_options_t
+  use contact_condense, only: block_outgrown, make_block, track_candidates
+  use contact_search, only: pair_is_asleep, search_pair
+  use contact_surface, only: make_surface, surface_t
+  use contact_types, only: contact_t
+  use model_data, only: model_t
+  implicit none
+  private
+  public :: make_contact, find_candidates, contact_nodes
+
+contains
+
+  !> Surfaces and sides of every contact card. The contactor is the side with the shorter mean
+  !> edge
+  !> (equal within 1e-6: SURFA), so that the order of the bodies does not matter.
+  subroutine make_contact(model, cone, contact)
+    type(model_t), intent(in) :: model
+    type(cone_options_t), intent(in) :: cone
+    type(contact_t), intent(out) :: contact
+    type(surface_t) :: side(2)
+    integer :: p, s
+    contact%cone = cone
+    contact%penetration_tolerance = model%controls%penetration_tolerance
+    allocate (contact%pair(size(model%contact)), contact%candidate(64), contact%before(64))
+    allocate (contact%block(0), contact%block_row(model%nodes))
+    contact%block_row = 0
+    contact%d = 1
+    do p = 1, size(model%contact)
+      if (model%contact(p)%mu > zero) contact%d = 2
+      do s = 1, 2
+        call make_surface(model, model%contact(p)%side(s), side(s))
+      end do
+      associate (pair => contact%pair(p))
+        pair%id = model%contact(p)%id
+        pair%mu = model%contact(p)%mu
+        pair%birth = model%contact(p)%birth
+        pair%death = model%contact(p)%death
+        s = merge(2, 1, side(2)%mean_length < side(1)%mean_length*(one - 1.0e-6_wp))
+        pair%contactor_side = s
+        pair%contactor = side(s)
+        pair%obstacle = side(3 - s)
+      end associate
+    end do
+  end subroutine make_contact
+
+  !> Candidates for the coming step: searches if any pair has moved enough to wake, then tracks.
+  !> new_block tells that the block of nodes had to grow: the matrix must be factored again.
+  subroutine find_candidates(model, contact, u, du, v, h, cycle, t1, new_block, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :), du(:, :), v(:, :), h, t1
+    integer, intent(in) :: cycle
+    logical, intent(out) :: new_block
+    type(status_t), intent(inout) :: status
+    logical :: awake
+    integer :: p
+    new_block = .false.
+    awake = .false.
+    do p = 1, size(contact%pair)
+      if (.not. awake) awake = .not. pair_is_asleep(contact%pair(p), u)
+    end do
+    if (awake .or. contact%keeps_before) call remember(contact)
+    if (awake) then
+      contact%n = 0
+      do p = 1, size(contact%pair)
+        call search_pair(model, contact, p, u, du, v, h, cycle, status)
+        if (failed(status)) return
+      end do
+      contact%w_is_current = .false.
+    end if
+    call track_candidates(contact, model%x, u, t1)
+    if (block_outgrown(contact)) then
+      call make_block(contact)
+      new_block = .true.
+    end if
+  end subroutine find_candidates
+
+  subroutine remember(contact)
+    type(contact_t), intent(inout) :: contact
+    if (size(contact%before) < contact%n) then
+      deallocate (contact%before)
+      allocate (contact%before(size(contact%candidate)))
+    end if
+    contact%before(1:contact%n) = contact%candidate(1:contact%n)
+    contact%n_before = contact%n
+  end subroutine remember
+
+  !> Nodes that REDIST makes massless: the nodes of surface edges in front of which, along their
+  !> normal and within their width, some part of the other surface stands.
+  subroutine contact_nodes(model, contact, list)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(in) :: contact
+    integer, allocatable, intent(out) :: list(:)
+    logical :: taken(model%nodes)
+    integer :: p, k
+    taken = .false.
+    do p = 1, size(contact%pair)
+      call mark_facing(model, contact%pair(p)%contactor, contact%pair(p)%obstacle, taken)
+      call mark_facing(model, contact%pair(p)%obstacle, contact%pair(p)%contactor, taken)
+    end do
+    list = pack([(k, k=1, model%nodes)], taken)
+  end subroutine contact_nodes
+
+  pure subroutine mark_facing(model, surface, other, taken)
+    type(model_t), intent(in) :: model
+    type(surface_t), intent(in) :: surface, other
+    logical, intent(inout) :: taken(:)
+    real(wp) :: d(2), along(2), height(2)
+    integer :: e, f, s
+    do e = 1, size(surface%length)
+      do f = 1, size(other%length)
+        if (dot_product(surface%normal(:, e), other%normal(:, f)) > -0.05_wp) cycle
+        do s = 1, 2
+          d = model%x(:, other%end_node(s, f)) - model%x(:, surface%end_node(1, e))
+          along(s) = surface%normal(1, e)*d(2) - surface%normal(2, e)*d(1)
+          height(s) = dot_product(surface%normal(:, e), d)
+        end do
+        if (maxval(height) < -1.0e-6_wp*surface%length(e)) cycle
+        if (maxval(along) <= 1.0e-6_wp*surface%length(e)) cycle
+        if (minval(along) >= (1.0_wp - 1.0e-6_wp)*surface%length(e)) cycle
+        taken(surface%end_node(:, e)) = .true.
+      end do
+    end do
+  end subroutine mark_facing
+
+end module contact_setup

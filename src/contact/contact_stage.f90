@@ -1,0 +1,114 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Contact of one stage of a step, for every scheme: from the free motion of the block to the
+!> reactions. It does not know the scheme: the stage has said what the motion means.
+module contact_stage
+  use base_kinds, only: wp, zero
+  use base_status, only: status_t, fail, failed, status_numerical
+  use base_strings, only: to_text
+  use cone_certificate, only: certify, mean_diagonal
+  use cone_gauss_seidel, only: solve_cone
+  use cone_types, only: certificate_t, contact_open
+  use contact_condense, only: relative_motion, spread_force
+  use contact_types, only: contact_t
+  use model_data, only: model_t
+  implicit none
+  private
+  public :: solve_contact, settle_contact
+
+contains
+
+  !> Reactions for the free motion x_free (2, m) of the block; force (2, m) = H' r. acting is
+  !> false
+  !> when nothing touches, and then force is zero.
+  subroutine solve_contact(contact, x_free, force, acting, status)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: x_free(:, :)
+    real(wp), intent(out) :: force(:, :)
+    logical, intent(out) :: acting
+    type(status_t), intent(inout) :: status
+    type(certificate_t) :: certificate
+    real(wp) :: motion(2)
+    integer :: k
+    do k = 1, contact%rows
+      associate (c => contact%candidate(contact%row_of(k)))
+        motion = relative_motion(c, x_free(:, contact%block_row(c%node)), &
+                                 x_free(:, contact%block_row(c%a)), &
+                                   x_free(:, contact%block_row(c%b)))
+        contact%q(1, k) = c%gap + motion(1)
+        if (contact%d > 1) contact%q(2, k) = motion(2)
+        contact%r(:, k) = c%r(1:contact%d)
+      end associate
+    end do
+    force = zero
+    acting = .false.
+    do k = 1, contact%n
+      contact%candidate(k)%r = zero
+      contact%candidate(k)%status = contact_open
+    end do
+    if (contact%rows == 0) return
+    if (all(contact%q(1, :) >= zero)) return
+    acting = .true.
+    call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
+                    certificate, status)
+    contact%solves = contact%solves + 1
+    contact%solves_since_row = contact%solves_since_row + 1
+    contact%sweeps = contact%sweeps + certificate%sweeps
+    contact%sweeps_since_row = contact%sweeps_since_row + certificate%sweeps
+    do k = 1, contact%rows
+      associate (c => contact%candidate(contact%row_of(k)))
+        c%r(1:contact%d) = contact%r(:, k)
+        c%status = contact%work%status(k)
+        if (.not. contact%r(1, k) > zero) c%status = contact_open
+        call spread_force(contact, c, c%r, force)
+      end associate
+    end do
+  end subroutine solve_contact
+
+  !> After the step: true gap and slip of every candidate from the motion x (2, m) of the block,
+  !> the
+  !> certificate of the reactions for that motion, penetration. Fails on what a scene must not
+  !> do
+  !> in silence: penetration beyond the tolerance, prescribed motions that overlap.
+  subroutine settle_contact(model, contact, du, acting, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: du(:, :)
+    logical, intent(in) :: acting
+    type(status_t), intent(inout) :: status
+    type(certificate_t) :: certificate
+    real(wp) :: motion(2), depth
+    integer :: i, k
+    do i = 1, contact%n
+      associate (c => contact%candidate(i))
+        motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
+        c%u = [c%gap + motion(1), motion(2)]
+        depth = max(zero, -c%u(1))
+        if (.not. c%valid) cycle
+        contact%pair(c%pair)%penetration = max(contact%pair(c%pair)%penetration, depth)
+        contact%worst_penetration = max(contact%worst_penetration, depth/c%length)
+        if (depth > contact%penetration_tolerance*c%length) &
+          call fail(status, status_numerical, &
+          'node '//to_text(model%node_id(c%node))//' penetrates by '//to_text(depth)// &
+          ', more than PENTOL times the edge', hint='lower TOL on *BIPACT_CONTACT')
+      end associate
+    end do
+    if (.not. acting) return
+    do k = 1, contact%rows
+      contact%work%u(:, k) = contact%candidate(contact%row_of(k))%u(1:contact%d)
+    end do
+    call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
+                 contact%cone%tolerance, certificate)
+    call keep_worst(certificate, contact%worst)
+    call keep_worst(certificate, contact%worst_since_row)
+  end subroutine settle_contact
+
+  pure subroutine keep_worst(new, worst)
+    type(certificate_t), intent(in) :: new
+    type(certificate_t), intent(inout) :: worst
+    worst%error = max(worst%error, new%error)
+    worst%error2018 = max(worst%error2018, new%error2018)
+    worst%eta = max(worst%eta, new%eta)
+    worst%met = worst%met .and. new%met
+  end subroutine keep_worst
+
+end module contact_stage

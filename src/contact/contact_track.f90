@@ -1,0 +1,102 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Where a contactor node stands on the obstacle: edge, place, normal, gap. Frames are those of
+!> the
+!> reference geometry (small displacements), the place on the edge is that of the moment.
+module contact_track
+  use base_kinds, only: wp, zero, one
+  use contact_surface, only: surface_t, edge_tangent
+  use contact_types, only: candidate_t, pair_t
+  implicit none
+  private
+  public :: place_on_edge, gap_to_edge, update_candidate, candidate_gap
+
+  !> A node this share of an edge beyond its end still belongs to it.
+  real(wp), parameter, public :: end_tolerance = 1.0e-8_wp
+  integer, parameter :: most_hops = 64
+
+contains
+
+  !> Distance of a node in front of the line of an edge [L].
+  pure real(wp) function gap_to_edge(surface, edge, x, u, node)
+    type(surface_t), intent(in) :: surface
+    integer, intent(in) :: edge, node
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp) :: n(2)
+    n = surface%normal(:, edge)
+    associate (a => surface%end_node(1, edge))
+      gap_to_edge = dot_product(n, x(:, node) - x(:, a)) + dot_product(n, u(:, node) - u(:, a))
+    end associate
+  end function gap_to_edge
+
+  !> Place of a node along an edge: 0 at its first node, 1 at its second, not clamped.
+  pure real(wp) function place_on_edge(surface, edge, x, u, node)
+    type(surface_t), intent(in) :: surface
+    integer, intent(in) :: edge, node
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp) :: t(2), span
+    t = edge_tangent(surface%normal(:, edge))
+    associate (a => surface%end_node(1, edge), b => surface%end_node(2, edge))
+      span = surface%length(edge) + dot_product(t, u(:, b) - u(:, a))
+      place_on_edge = (dot_product(t, x(:, node) - x(:, a)) &
+        + dot_product(t, u(:, node) - u(:, a)))/span
+    end associate
+  end function place_on_edge
+
+  !> Moves a candidate to the edge that its node faces now; changed tells whether its frame or
+  !> place
+  !> differs from before.
+  pure subroutine update_candidate(pair, x, u, c, changed)
+    type(pair_t), intent(in) :: pair
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    type(candidate_t), intent(inout) :: c
+    logical, intent(out) :: changed
+    real(wp) :: xi, other, normal(2)
+    integer :: edge, next, hop, side, came_from
+    edge = c%edge
+    came_from = 0
+    c%valid = .true.
+    do hop = 1, most_hops
+      xi = place_on_edge(pair%obstacle, edge, x, u, c%node)
+      normal = pair%obstacle%normal(:, edge)
+      if (xi >= -end_tolerance .and. xi <= one + end_tolerance) exit
+      side = merge(1, 2, xi < zero)
+      next = pair%obstacle%neighbour(side, edge)
+      if (next == 0) then
+        c%valid = .false.
+        exit
+      end if
+      other = place_on_edge(pair%obstacle, next, x, u, c%node)
+      if (next == came_from .or. (side == 1 .and. other > one) &
+        .or. (side == 2 .and. other < zero)) then
+        normal = normal + pair%obstacle%normal(:, next)
+        normal = normal/sqrt(sum(normal**2))
+        exit
+      end if
+      came_from = edge
+      edge = next
+    end do
+    xi = min(one, max(zero, xi))
+    if (xi <= end_tolerance) xi = zero
+    if (xi >= one - end_tolerance) xi = one
+    changed = edge /= c%edge .or. abs(xi - c%xi) > zero .or. any(abs(normal - c%normal) > zero)
+    c%edge = edge
+    c%a = pair%obstacle%end_node(1, edge)
+    c%b = pair%obstacle%end_node(2, edge)
+    c%xi = xi
+    c%normal = normal
+    c%length = pair%obstacle%length(edge)
+    c%gap = candidate_gap(c, x, u)
+  end subroutine update_candidate
+
+  !> n . (position of the node - position of its place) [L], reference part and motion apart, so
+  !> that a small gap keeps its digits far from the origin.
+  pure real(wp) function candidate_gap(c, x, u)
+    type(candidate_t), intent(in) :: c
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    candidate_gap = dot_product(c%normal, (x(:, c%node) - x(:, c%a)) &
+      - c%xi*(x(:, c%b) - x(:, c%a))) &
+                    + dot_product(c%normal, (u(:, c%node) - u(:, c%a)) &
+                      - c%xi*(u(:, c%b) - u(:, c%a)))
+  end function candidate_gap
+
+end module contact_track

@@ -1,0 +1,126 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What --help and --keywords print; doc/deck.md comes from the same table.
+module deck_help
+  use base_strings, only: to_text
+  use deck_table, only: table_t, keyword_t, field_t, keyword_used, field_honoured, &
+    field_tuning, &
+    field_fixed, field_ignored
+  implicit none
+  private
+  public :: write_usage, write_keywords
+
+contains
+
+  !> The command line.
+  subroutine write_usage(unit)
+    integer, intent(in) :: unit
+    character(76), parameter :: line(16) = [character(76) :: &
+      'bipact DECK [-o DIR] [-D name=value]... [--check | --plan] [--quiet]', &
+      'bipact --keywords | --help | --version', '', &
+      '  DECK            input deck (a subset of the LS-DYNA keyword format)', &
+      '  -o DIR          folder of the results; default: DECK''s name with .out', &
+      '  -D name=value   replaces the value of a *PARAMETER of the deck', &
+      '  --check         reads and checks the deck; writes no file', &
+      '  --plan          prints what the scene needs; writes no file', &
+      '  --quiet         no summary and no progress line', &
+      '  --keywords      lists the keywords, their cards and fields', '', &
+      'exit code: 0 done, 1 numerical failure, 2 deck error, 3 file or system error,', &
+      '           4 stopped by a signal', '', &
+      'Results: tables NAME.tab as the deck asks, bipact.log, deck.echo.k.', '']
+    integer :: k
+    do k = 1, size(line) - 1
+      write (unit, '(a)') trim(line(k))
+    end do
+  end subroutine write_usage
+
+  !> Every keyword with its cards and fields, as Markdown.
+  subroutine write_keywords(table, unit)
+    type(table_t), intent(in) :: table
+    integer, intent(in) :: unit
+    integer :: k, c
+    do k = 1, table%n
+      associate (keyword => table%keyword(k))
+        write (unit, '(a)') '### *'//trim(keyword%name)
+        write (unit, '(a)') ''
+        write (unit, '(a)') capital(trim(keyword%help))//'.'//trim(options(keyword))
+        write (unit, '(a)') ''
+        do c = 1, keyword%cards
+          call write_card(keyword, c, unit)
+        end do
+      end associate
+    end do
+  end subroutine write_keywords
+
+  pure function capital(text) result(out)
+    character(*), intent(in) :: text
+    character(len(text)) :: out
+    out = text
+    if (text(1:1) >= 'a' .and. text(1:1) <= 'z') out(1:1) = achar(iachar(text(1:1)) - 32)
+  end function capital
+
+  pure function options(keyword) result(text)
+    type(keyword_t), intent(in) :: keyword
+    character(:), allocatable :: text
+    text = ''
+    if (keyword%may_title) text = text//' `_TITLE` adds a text card first.'
+    if (keyword%may_id) text = text//' `_ID` adds a card with id and heading first.'
+    if (keyword%once) text = text//' At most once per deck.'
+    if (keyword%repeat_from > 0) text = text//' Cards from '//to_text(keyword%repeat_from)// &
+                                        ' on repeat.'
+  end function options
+
+  subroutine write_card(keyword, c, unit)
+    type(keyword_t), intent(in) :: keyword
+    integer, intent(in) :: c, unit
+    integer :: f
+    write (unit, '(a)') 'Card '//to_text(c)//trim(merge(' (optional)', '           ', &
+      c > keyword%required .and. keyword%repeat_from == 0))//':'
+    write (unit, '(a)') ''
+    write (unit, '(a)') '| field | columns | type | units | default | range | use | meaning |'
+    write (unit, '(a)') '|---|---|---|---|---|---|---|---|'
+    do f = 1, keyword%card(c)%fields
+      associate (x => keyword%card(c)%field(f))
+        write (unit, '(a)') '| '//trim(x%name)//' | '//to_text(x%first)//'-'// &
+          to_text(x%first + x%width - 1)//' | '//x%kind//' | '//trim(x%units)//' | '// &
+          trim(default_text(x))//' | '//range_text(x)//' | '//trim(use_text(x%class))//' | '// &
+          trim(x%help)//' |'
+      end associate
+    end do
+    write (unit, '(a)') ''
+  end subroutine write_card
+
+  pure function default_text(field) result(text)
+    type(field_t), intent(in) :: field
+    character(24) :: text
+    text = field%default
+    if (field%required) text = 'required'
+    if (field%zero_is_default) text = trim(field%default)//' (0 too)'
+  end function default_text
+
+  pure function range_text(field) result(text)
+    type(field_t), intent(in) :: field
+    character(:), allocatable :: text
+    text = ''
+    if (field%low > -huge(field%low)) text = trim(merge('> ', '>=', field%low_open))//' '// &
+      to_text(field%low)
+    if (field%high < huge(field%high)) text = text//' '// &
+      trim(merge('< ', '<=', field%high_open))// &
+      ' '//to_text(field%high)
+  end function range_text
+
+  pure function use_text(class) result(text)
+    integer, intent(in) :: class
+    character(24) :: text
+    select case (class)
+    case (field_honoured)
+      text = 'honoured'
+    case (field_tuning)
+      text = 'noted, no effect'
+    case (field_fixed)
+      text = 'blank or default'
+    case (field_ignored)
+      text = 'cannot matter in 2-D'
+    end select
+  end function use_text
+
+end module deck_help

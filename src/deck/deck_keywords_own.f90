@@ -1,0 +1,76 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The program's own keywords, *BIPACT_..., all optional, each at most once per deck.
+module deck_keywords_own
+  use deck_table, only: table_t, add_keyword, add_card, add_field, keyword_refused
+  implicit none
+  private
+  public :: add_own_keywords
+
+contains
+
+  !> Adds the rows of the own keywords.
+  subroutine add_own_keywords(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'BIPACT_TIME', 'time scheme', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'SCHEME', 'W10 =THETA', 'THETA or NEWMARK')
+    call add_field(table, 'THETA', 'R10 =0.5 >=0.5 <=1', 'weight of the velocity at the end')
+    call add_field(table, 'XI', 'R10 >=0.5 <=1', &
+      'weight of the forces at the end; blank = THETA')
+    call add_field(table, 'REST', 'R10 fixed')
+    call add_field(table, 'RHOINF', 'R10 fixed')
+    call add_field(table, 'RULE', 'W10 fixed')
+    call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'TYPE', 'W10 =CONSISTENT', 'CONSISTENT, LUMPED or DISPERSION')
+    call add_field(table, 'REDIST', 'I10 =0 >=0 <=1', '1 = massless contact nodes')
+    call add_field(table, 'COURANT', 'R10 >=0 <=1', 'of DISPERSION; blank = from DT0')
+    call add_keyword(table, 'BIPACT_CONTACT', 'contact solver', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'SOLVER', 'W10 =AUTO', &
+      'AUTO: Gauss-Seidel and direct solves; GS: alone')
+    call add_field(table, 'TOL', 'R10 =1.0E-10 >0 <=0.01', 'of the certificate')
+    call add_field(table, 'MAXIT', 'I10 =10000 >0', 'most sweeps of a solve')
+    call add_field(table, 'RHO', 'R10 =1.0 >0 <2', 'factor on 1/lmax(W_aa)')
+    call add_field(table, 'LOCAL', 'W10 =BIPOT fixed', 'local solver')
+    call add_field(table, 'LTOL', 'R10 =0.01 >0 <=1', 'looseness of the local solves')
+    call add_field(table, 'LMAXIT', 'I10 =50 >0', 'most local iterations')
+    call add_field(table, 'WARM', 'I10 =1 >=0 <=1', &
+      '1 = start from the reactions of the last step')
+    call add_card(table)
+    call add_field(table, 'WSTORE', 'W10 =AUTO', 'AUTO or DENSE')
+    call add_field(table, 'FRAME', 'W10 =START fixed', 'frames of contact: start of the step')
+    call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
+      'accepted penetration / segment length')
+    call add_field(table, 'ROTWARN', 'R10 =5.0 >0', 'degrees of rotation that are warned of')
+    call add_field(table, 'DFIRST', 'I10 fixed')
+    call add_field(table, 'DLAST', 'I10 fixed')
+    call add_field(table, 'DEVERY', 'I10 =1 fixed')
+    call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'ENGINE', 'W10 =AUTO', 'AUTO, LDLT or SKYLINE')
+    call add_field(table, 'ORDER', 'W10 =AUTO', 'AUTO, NATURAL, RCM or METIS')
+    call add_field(table, 'SCHUR', 'W10 =AUTO', 'AUTO or YES: contact dofs last')
+    call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
+    call add_field(table, 'CGTOL', 'R10 fixed')
+    call add_field(table, 'CGMAX', 'I10 fixed')
+    call add_field(table, 'THREADS', 'I10 =1 fixed')
+    call add_keyword(table, 'BIPACT_LEDGER', 'energy ledger', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'EVERY', 'I10 =0 >=0', 'steps between evaluations; 0 = with GLSTAT')
+    call add_field(table, 'GROWTH', 'R10 =1.0E-9 >0', 'growth / largest term that is warned of')
+    call add_field(table, 'ACTION', 'W10 =WARN', 'WARN or STOP on growth')
+    call add_keyword(table, 'BIPACT_TIMING', 'table TIMING', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
+    call add_keyword(table, 'BIPACT_PAIR', 'not available in this version', &
+      class=keyword_refused)
+    call add_keyword(table, 'BIPACT_STEP', 'not available in this version', &
+      class=keyword_refused)
+    call add_keyword(table, 'BIPACT_FIELD', 'not available in this version', &
+      class=keyword_refused)
+    call add_keyword(table, 'BIPACT_RESTART', 'not available in this version', &
+                     class=keyword_refused)
+  end subroutine add_own_keywords
+
+end module deck_keywords_own

@@ -1,0 +1,97 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What is wrong with a deck, collected so that one pass shows up to twenty problems, and what
+!> was
+!> accepted with a word (notes, warnings).
+module deck_problems
+  use base_strings, only: to_text
+  implicit none
+  private
+  integer, parameter, public :: problem_limit = 20
+
+  type, public :: line_t
+    character(:), allocatable :: text
+  end type line_t
+
+  type, public :: problems_t
+    integer :: count = 0
+    type(line_t) :: problem(problem_limit)
+    integer :: note_count = 0
+    type(line_t), allocatable :: note(:)
+    integer :: warning_count = 0
+    type(line_t), allocatable :: warning(:)
+  end type problems_t
+
+  public :: add_problem, add_note, add_warning, render, full
+
+contains
+
+  !> True when no further problem would be shown.
+  pure logical function full(problems)
+    type(problems_t), intent(in) :: problems
+    full = problems%count >= problem_limit
+  end function full
+
+  !> Adds a finished message.
+  subroutine add_problem(problems, text)
+    type(problems_t), intent(inout) :: problems
+    character(*), intent(in) :: text
+    if (full(problems)) return
+    problems%count = problems%count + 1
+    problems%problem(problems%count)%text = text
+  end subroutine add_problem
+
+  !> Adds a note; the same note is kept once.
+  subroutine add_note(problems, text)
+    type(problems_t), intent(inout) :: problems
+    character(*), intent(in) :: text
+    call append(problems%note, problems%note_count, text)
+  end subroutine add_note
+
+  !> Adds a warning; the same warning is kept once.
+  subroutine add_warning(problems, text)
+    type(problems_t), intent(inout) :: problems
+    character(*), intent(in) :: text
+    call append(problems%warning, problems%warning_count, text)
+  end subroutine add_warning
+
+  subroutine append(list, count, text)
+    type(line_t), allocatable, intent(inout) :: list(:)
+    integer, intent(inout) :: count
+    character(*), intent(in) :: text
+    type(line_t), allocatable :: longer(:)
+    integer :: k
+    do k = 1, count
+      if (list(k)%text == text) return
+    end do
+    if (.not. allocated(list)) allocate (list(8))
+    if (count == size(list)) then
+      allocate (longer(2*count))
+      longer(1:count) = list
+      call move_alloc(longer, list)
+    end if
+    count = count + 1
+    list(count)%text = text
+  end subroutine append
+
+  !> One message: place and columns, what, the card, carets under the columns, the hint.
+  pure function render(place, first, last, what, card, hint) result(text)
+    character(*), intent(in) :: place
+    integer, intent(in) :: first, last   !< columns; 0 = the whole card
+    character(*), intent(in) :: what
+    character(*), intent(in) :: card
+    character(*), intent(in) :: hint
+    character(:), allocatable :: text
+    character(*), parameter :: indent = '    '
+    character :: end_line
+    end_line = new_line('a')
+    text = place
+    if (first > 0) text = text//', columns '//to_text(first)//'-'//to_text(last)
+    text = text//': '//what
+    if (len(card) > 0) text = text//end_line//indent//card
+    if (len(card) > 0 .and. first > 0) &
+      text = text//end_line//indent//repeat(' ', first - 1)// &
+        repeat('^', max(1, last - first + 1))
+    if (len(hint) > 0) text = text//end_line//indent//'hint: '//hint
+  end function render
+
+end module deck_problems

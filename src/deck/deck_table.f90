@@ -1,0 +1,182 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The shape of a table of keywords: cards, fields, columns, defaults, ranges, help. The one
+!> table
+!> (deck_keywords) feeds the reader, the messages, the echo and the documentation.
+module deck_table
+  use base_kinds, only: wp
+  implicit none
+  private
+  integer, parameter, public :: name_length = 10
+  integer, parameter, public :: max_fields = 10
+
+  !> What the program does with a field.
+  integer, parameter, public :: field_honoured = 1  !< used
+  !> of another method: accepted, one note, no effect
+  integer, parameter, public :: field_tuning = 2
+  integer, parameter, public :: field_fixed = 3     !< must be blank or at its default
+  !> cannot matter here (a z direction): accepted
+  integer, parameter, public :: field_ignored = 4
+
+  type, public :: field_t
+    character(name_length) :: name = ''
+    character :: kind = 'R'            !< I integer, R real, W word, T text of the whole card
+    integer :: width = 10
+    integer :: first = 1               !< first column in standard form
+    integer :: class = field_honoured
+    logical :: required = .false.
+    logical :: zero_is_default = .false.
+    character(name_length) :: default = ''
+    real(wp) :: low = -huge(1.0_wp)
+    real(wp) :: high = huge(1.0_wp)
+    logical :: low_open = .false.
+    logical :: high_open = .false.
+    character(12) :: units = ''
+    character(96) :: help = ''
+  end type field_t
+
+  type, public :: card_t
+    integer :: fields = 0
+    type(field_t) :: field(max_fields)
+  end type card_t
+
+  integer, parameter, public :: keyword_used = 1
+  integer, parameter, public :: keyword_skipped = 2  !< cannot change the solution: one note
+  integer, parameter, public :: keyword_refused = 3  !< known, but not available in this version
+
+  type, public :: keyword_t
+    character(48) :: name = ''
+    integer :: class = keyword_used
+    integer :: cards = 0
+    integer :: required = 0        !< cards that must be there
+    integer :: repeat_from = 0     !< after the last card go on with this one; 0 = no more cards
+    logical :: may_title = .false. !< _TITLE adds a text card
+    logical :: may_id = .false.    !< _ID adds a card with id and heading
+    logical :: once = .false.      !< at most once per deck
+    type(card_t), allocatable :: card(:)
+    character(96) :: help = ''
+  end type keyword_t
+
+  type, public :: table_t
+    integer :: n = 0
+    type(keyword_t), allocatable :: keyword(:)
+  end type table_t
+
+  public :: add_keyword, add_card, add_field, find_keyword, field_index
+
+contains
+
+  !> Opens a new row of the table.
+  subroutine add_keyword(table, name, help, class, required, repeat_from, title, id, once)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name
+    character(*), intent(in) :: help
+    integer, intent(in), optional :: class, required, repeat_from
+    logical, intent(in), optional :: title, id, once
+    if (.not. allocated(table%keyword)) allocate (table%keyword(160))
+    table%n = table%n + 1
+    associate (k => table%keyword(table%n))
+      k%name = name
+      k%help = help
+      if (present(class)) k%class = class
+      if (present(required)) k%required = required
+      if (present(repeat_from)) k%repeat_from = repeat_from
+      if (present(title)) k%may_title = title
+      if (present(id)) k%may_id = id
+      if (present(once)) k%once = once
+      allocate (k%card(0))
+    end associate
+  end subroutine add_keyword
+
+  !> Opens a new card of the last keyword.
+  subroutine add_card(table)
+    type(table_t), intent(inout) :: table
+    type(card_t), allocatable :: longer(:)
+    associate (k => table%keyword(table%n))
+      allocate (longer(k%cards + 1))
+      longer(1:k%cards) = k%card
+      call move_alloc(longer, k%card)
+      k%cards = k%cards + 1
+    end associate
+  end subroutine add_card
+
+  !> Adds a field to the last card. spec holds blank-separated words: kind and width first
+  !> ("R10"),
+  !> then any of "req", "note", "fixed", "ignored", "0=d", "=default", "[units]", ">x", ">=x",
+  !> "<x", "<=x".
+  subroutine add_field(table, name, spec, help)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name
+    character(*), intent(in) :: spec
+    character(*), intent(in), optional :: help
+    integer :: start, next
+    associate (c => table%keyword(table%n)%card(table%keyword(table%n)%cards))
+      c%fields = c%fields + 1
+      associate (f => c%field(c%fields))
+        f%name = name
+        if (present(help)) f%help = help
+        f%kind = spec(1:1)
+        if (c%fields > 1) f%first = c%field(c%fields - 1)%first + c%field(c%fields - 1)%width
+        next = index(spec//' ', ' ')
+        read (spec(2:next - 1), *) f%width
+        do while (next < len(spec))
+          start = next + 1
+          next = start - 1 + index(spec(start:)//' ', ' ')
+          call apply_word(f, spec(start:next - 1))
+        end do
+      end associate
+    end associate
+  end subroutine add_field
+
+  pure subroutine apply_word(f, word)
+    type(field_t), intent(inout) :: f
+    character(*), intent(in) :: word
+    integer :: skip
+    select case (word)
+    case ('req')
+      f%required = .true.
+    case ('note')
+      f%class = field_tuning
+    case ('fixed')
+      f%class = field_fixed
+    case ('ignored')
+      f%class = field_ignored
+    case ('0=d')
+      f%zero_is_default = .true.
+    case default
+      skip = merge(2, 1, index(word, '>=') == 1 .or. index(word, '<=') == 1)
+      select case (word(1:1))
+      case ('=')
+        f%default = word(2:)
+      case ('[')
+        f%units = word
+      case ('>')
+        read (word(skip + 1:), *) f%low
+        f%low_open = skip == 1
+      case ('<')
+        read (word(skip + 1:), *) f%high
+        f%high_open = skip == 1
+      end select
+    end select
+  end subroutine apply_word
+
+  !> Row of a keyword by its name (upper case, without options); 0 if there is none.
+  pure integer function find_keyword(table, name)
+    type(table_t), intent(in) :: table
+    character(*), intent(in) :: name
+    do find_keyword = 1, table%n
+      if (table%keyword(find_keyword)%name == name) return
+    end do
+    find_keyword = 0
+  end function find_keyword
+
+  !> Number of a field on a card by its name; 0 if there is none.
+  pure integer function field_index(card, name)
+    type(card_t), intent(in) :: card
+    character(*), intent(in) :: name
+    do field_index = 1, card%fields
+      if (card%field(field_index)%name == name) return
+    end do
+    field_index = 0
+  end function field_index
+
+end module deck_table

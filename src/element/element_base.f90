@@ -1,0 +1,56 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What an element type offers: matrices of one element from plain arrays, no mesh.
+module element_base
+  use base_kinds, only: wp
+  implicit none
+  private
+
+  type, abstract, public :: element_t
+    character(8) :: name = ''
+    integer :: nodes = 0
+  contains
+    procedure(stiffness_i), deferred :: stiffness
+    procedure(mass_i), deferred :: mass
+    procedure(widths_i), deferred :: widths
+    procedure(area_i), deferred :: smallest_jacobian
+  end type element_t
+
+  abstract interface
+    !> Stiffness (2n, 2n) [F/L] from coordinates x (2, n) [L], moduli d (3, 3), thickness [L];
+    !> dofs ordered node by node (x, y).
+    pure subroutine stiffness_i(this, x, d, thickness, ke)
+      import :: element_t, wp
+      class(element_t), intent(in) :: this
+      real(wp), intent(in) :: x(:, :)
+      real(wp), intent(in) :: d(3, 3)
+      real(wp), intent(in) :: thickness
+      real(wp), intent(out) :: ke(:, :)
+    end subroutine stiffness_i
+    !> Mass (n, n) [M] integrated at points +-a(i) of parametric direction i.
+    pure subroutine mass_i(this, x, density, thickness, a, me)
+      import :: element_t, wp
+      class(element_t), intent(in) :: this
+      real(wp), intent(in) :: x(:, :)
+      real(wp), intent(in) :: density
+      real(wp), intent(in) :: thickness
+      real(wp), intent(in) :: a(2)
+      real(wp), intent(out) :: me(:, :)
+    end subroutine mass_i
+    !> Width in each parametric direction [L]: the distance of opposite edge midpoints.
+    pure function widths_i(this, x) result(h)
+      import :: element_t, wp
+      class(element_t), intent(in) :: this
+      real(wp), intent(in) :: x(:, :)
+      real(wp) :: h(2)
+    end function widths_i
+    !> Smallest determinant of the Jacobian at a corner [L2]; not positive: clockwise or
+    !> degenerate.
+    pure function area_i(this, x) result(j)
+      import :: element_t, wp
+      class(element_t), intent(in) :: this
+      real(wp), intent(in) :: x(:, :)
+      real(wp) :: j
+    end function area_i
+  end interface
+
+end module element_base

@@ -1,0 +1,125 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Dense symmetric positive definite blocks by LAPACK, and closed forms for 2 x 2.
+!> A block is scaled by a power of two before the square roots of Cholesky, so that a change of
+!> units by powers of two changes no digit.
+module linalg_dense
+  use base_kinds, only: wp, zero, one, half
+  use base_status, only: status_t, fail, status_numerical
+  use base_strings, only: to_text
+  implicit none
+  private
+
+  type, public :: dense_spd_t
+    integer :: n = 0
+    real(wp) :: scale = one             !< matrix = scale * L L'
+    real(wp), allocatable :: l(:, :)    !< lower triangle of the Cholesky factor
+  end type dense_spd_t
+
+  public :: dense_factor, dense_solve, dense_inverse, solve_general, largest_eigenvalue_2
+
+  interface
+    subroutine dpotrf(uplo, n, a, lda, info)
+      import :: wp
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, lda
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: info
+    end subroutine dpotrf
+    subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)
+      import :: wp
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(in) :: a(lda, *)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dpotrs
+    subroutine dpotri(uplo, n, a, lda, info)
+      import :: wp
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, lda
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: info
+    end subroutine dpotri
+    subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: wp
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dgesv
+  end interface
+
+contains
+
+  !> Cholesky factor of the symmetric positive definite matrix held in block%l; fails when it is
+  !> not.
+  subroutine dense_factor(block, status)
+    type(dense_spd_t), intent(inout) :: block
+    type(status_t), intent(inout) :: status
+    real(wp) :: largest
+    integer :: j, info
+    block%n = size(block%l, 1)
+    if (block%n == 0) return
+    largest = zero
+    do j = 1, block%n
+      largest = max(largest, block%l(j, j))
+    end do
+    block%scale = one
+    if (largest > zero .and. largest <= huge(largest)) &
+      block%scale = scale(one, exponent(largest))
+    block%l = block%l/block%scale
+    call dpotrf('L', block%n, block%l, block%n, info)
+    if (info /= 0) call fail(status, status_numerical, 'lost pivot '//to_text(info)// &
+                             ' in the contact block: the matrix is not positive definite')
+  end subroutine dense_factor
+
+  !> b = matrix^-1 b for one right-hand side of n entries (any shape).
+  subroutine dense_solve(block, n, b)
+    type(dense_spd_t), intent(in) :: block
+    integer, intent(in) :: n
+    real(wp), intent(inout) :: b(n)
+    integer :: info
+    call dpotrs('L', n, 1, block%l, n, b, n, info)
+    b = b/block%scale
+  end subroutine dense_solve
+
+  !> inverse = matrix^-1, both triangles.
+  subroutine dense_inverse(block, inverse)
+    type(dense_spd_t), intent(in) :: block
+    real(wp), intent(out) :: inverse(:, :)
+    real(wp), allocatable :: work(:, :)
+    integer :: j, info
+    allocate (work(block%n, block%n))
+    work = block%l
+    call dpotri('L', block%n, work, block%n, info)
+    do j = 1, block%n
+      inverse(j:, j) = work(j:, j)/block%scale
+      inverse(j, j:) = inverse(j:, j)
+    end do
+  end subroutine dense_inverse
+
+  !> Solves the general system a x = b (a is destroyed, b becomes x); ok is false when it is
+  !> singular.
+  subroutine solve_general(n, a, b, pivot, ok)
+    integer, intent(in) :: n
+    real(wp), intent(inout) :: a(:, :)
+    real(wp), intent(inout) :: b(:)
+    integer, intent(inout) :: pivot(:)
+    logical, intent(out) :: ok
+    integer :: info
+    call dgesv(n, 1, a, size(a, 1), pivot, b, size(b), info)
+    ok = info == 0
+  end subroutine solve_general
+
+  !> Largest eigenvalue of the symmetric part of a 2 x 2 matrix.
+  pure real(wp) function largest_eigenvalue_2(a)
+    real(wp), intent(in) :: a(2, 2)
+    real(wp) :: mean, difference, shear
+    mean = half*(a(1, 1) + a(2, 2))
+    difference = half*(a(1, 1) - a(2, 2))
+    shear = half*(a(1, 2) + a(2, 1))
+    largest_eigenvalue_2 = mean + sqrt(difference**2 + shear**2)
+  end function largest_eigenvalue_2
+
+end module linalg_dense

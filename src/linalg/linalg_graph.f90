@@ -1,0 +1,127 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The node graph and the symmetric matrices that live on it: blocks of 2 x 2 (stiffness-like)
+!> and
+!> scalars per node pair (mass-like, the same for both directions).
+!> Rows hold every neighbour and the node itself, in increasing order.
+module linalg_graph
+  use base_kinds, only: wp, zero
+  use base_sort, only: sort_integers, find_sorted
+  implicit none
+  private
+
+  type, public :: graph_t
+    integer :: n = 0
+    integer, allocatable :: first(:)   !< (n+1) start of each row in column
+    integer, allocatable :: column(:)  !< neighbours of each node, the node itself included
+  contains
+    procedure :: position => graph_position
+  end type graph_t
+
+  !> A = blocks (2, 2, size(column)) on a graph [F/L].
+  type, public :: block_matrix_t
+    real(wp), allocatable :: value(:, :, :)
+  end type block_matrix_t
+
+  public :: graph_from_cliques, scalar_product
+
+contains
+
+  !> Graph in which all members of a clique (an element, a tied group) are neighbours.
+  !> first(m+1), member: the cliques as rows; n: number of nodes.
+  pure subroutine graph_from_cliques(n, first, member, graph)
+    integer, intent(in) :: n
+    integer, intent(in) :: first(:)
+    integer, intent(in) :: member(:)
+    type(graph_t), intent(out) :: graph
+    integer, allocatable :: owner_first(:), owner(:), seen(:), row(:)
+    integer :: pass, node, k, e, m, length
+    call transpose_rows(n, first, member, owner_first, owner)
+    allocate (seen(n), row(n))
+    graph%n = n
+    allocate (graph%first(n + 1))
+    do pass = 1, 2
+      seen = 0
+      graph%first(1) = 1
+      do node = 1, n
+        length = 1
+        row(1) = node
+        seen(node) = node
+        do k = owner_first(node), owner_first(node + 1) - 1
+          e = owner(k)
+          do m = first(e), first(e + 1) - 1
+            if (seen(member(m)) == node) cycle
+            seen(member(m)) = node
+            length = length + 1
+            row(length) = member(m)
+          end do
+        end do
+        graph%first(node + 1) = graph%first(node) + length
+        if (pass == 2) then
+          call sort_integers(row(1:length))
+          graph%column(graph%first(node):graph%first(node + 1) - 1) = row(1:length)
+        end if
+      end do
+      if (pass == 1) allocate (graph%column(graph%first(n + 1) - 1))
+    end do
+  end subroutine graph_from_cliques
+
+  !> Which cliques hold each node: the transpose of a list of rows.
+  pure subroutine transpose_rows(n, first, member, owner_first, owner)
+    integer, intent(in) :: n
+    integer, intent(in) :: first(:)
+    integer, intent(in) :: member(:)
+    integer, allocatable, intent(out) :: owner_first(:)
+    integer, allocatable, intent(out) :: owner(:)
+    integer, allocatable :: next(:)
+    integer :: e, k
+    allocate (owner_first(n + 1), owner(size(member)))
+    owner_first = 0
+    do k = 1, size(member)
+      owner_first(member(k) + 1) = owner_first(member(k) + 1) + 1
+    end do
+    owner_first(1) = 1
+    do k = 1, n
+      owner_first(k + 1) = owner_first(k) + owner_first(k + 1)
+    end do
+    next = owner_first(1:n)
+    do e = 1, size(first) - 1
+      do k = first(e), first(e + 1) - 1
+        owner(next(member(k))) = e
+        next(member(k)) = next(member(k)) + 1
+      end do
+    end do
+  end subroutine transpose_rows
+
+  !> Position of entry (row, column) in graph%column; 0 if the nodes are no neighbours.
+  pure integer function graph_position(this, row, column)
+    class(graph_t), intent(in) :: this
+    integer, intent(in) :: row
+    integer, intent(in) :: column
+    graph_position = find_sorted(this%column(this%first(row):this%first(row + 1) - 1), column)
+    if (graph_position > 0) graph_position = graph_position + this%first(row) - 1
+  end function graph_position
+
+  !> y = y + factor * S x for a node-scalar matrix S on a graph; x, y (2, n).
+  pure subroutine scalar_product(n, first, column, s, factor, x, y)
+    integer, intent(in) :: n
+    integer, intent(in) :: first(n + 1)
+    integer, intent(in) :: column(:)
+    real(wp), intent(in) :: s(:)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: x(2, n)
+    real(wp), intent(inout) :: y(2, n)
+    real(wp) :: s1, s2
+    integer :: i, k
+    do i = 1, n
+      s1 = zero
+      s2 = zero
+      do k = first(i), first(i + 1) - 1
+        s1 = s1 + s(k)*x(1, column(k))
+        s2 = s2 + s(k)*x(2, column(k))
+      end do
+      y(1, i) = y(1, i) + factor*s1
+      y(2, i) = y(2, i) + factor*s2
+    end do
+  end subroutine scalar_product
+
+end module linalg_graph

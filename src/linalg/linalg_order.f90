@@ -1,0 +1,220 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Elimination orders of a node graph, with chosen nodes kept last, and what each would cost.
+module linalg_order
+  use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_null_ptr
+  use base_kinds, only: i8
+  use base_sort, only: sort_order
+  use base_status, only: status_t, fail, failed, status_numerical, status_deck
+  use linalg_graph, only: graph_t
+  implicit none
+  private
+  public :: choose_order, count_factor, symbolic_factor
+
+  !> Below this many multiplications METIS is not asked: its own run would cost more than it
+  !> saves.
+  integer(i8), parameter :: metis_threshold = 2000000_i8
+
+  interface
+    integer(c_int) function metis_node_nd(nvtxs, xadj, adjncy, vwgt, options, perm, iperm) &
+      bind(c, name='METIS_NodeND')
+      import :: c_int, c_ptr
+      integer(c_int), intent(in) :: nvtxs
+      integer(c_int), intent(in) :: xadj(*)
+      integer(c_int), intent(in) :: adjncy(*)
+      type(c_ptr), value, intent(in) :: vwgt
+      type(c_ptr), value, intent(in) :: options
+      integer(c_int), intent(out) :: perm(*)
+      integer(c_int), intent(out) :: iperm(*)
+    end function metis_node_nd
+  end interface
+
+contains
+
+  !> Order of the nodes (new -> old) by name: NATURAL, RCM, METIS, or AUTO = the one whose
+  !> factor costs the fewest multiplications. The nodes of `last` come last, in their own order.
+  subroutine choose_order(graph, last, wanted, order, chosen, flops, status)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: last(:)
+    character(*), intent(in) :: wanted
+    integer, allocatable, intent(out) :: order(:)
+    character(:), allocatable, intent(out) :: chosen
+    integer(i8), intent(out) :: flops
+    type(status_t), intent(inout) :: status
+    character(7), parameter :: names(3) = ['NATURAL', 'RCM    ', 'METIS  ']
+    integer, allocatable :: trial(:), leading(:)
+    integer(i8) :: cost
+    integer :: k
+    flops = huge(flops)
+    chosen = ''
+    call leading_nodes(graph%n, last, leading)
+    do k = 1, 3
+      if (wanted /= 'AUTO' .and. wanted /= names(k)) cycle
+      if (wanted == 'AUTO' .and. k == 3 .and. flops < metis_threshold) exit
+      call one_order(graph, leading, trim(names(k)), trial, status)
+      if (failed(status)) return
+      trial = [trial, last]
+      cost = count_factor(graph, trial, size(leading))
+      if (cost >= flops) cycle
+      flops = cost
+      order = trial
+      chosen = trim(names(k))
+    end do
+    if (.not. allocated(order)) call fail(status, status_deck, 'unknown order "'//wanted//'"')
+  end subroutine choose_order
+
+  !> All nodes that are not in `last`.
+  pure subroutine leading_nodes(n, last, leading)
+    integer, intent(in) :: n
+    integer, intent(in) :: last(:)
+    integer, allocatable, intent(out) :: leading(:)
+    logical :: is_leading(n)
+    integer :: k
+    is_leading = .true.
+    is_leading(last) = .false.
+    leading = pack([(k, k=1, n)], is_leading)
+  end subroutine leading_nodes
+
+  subroutine one_order(graph, nodes, name, order, status)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: nodes(:)
+    character(*), intent(in) :: name
+    integer, allocatable, intent(out) :: order(:)
+    type(status_t), intent(inout) :: status
+    select case (name)
+    case ('RCM')
+      call reverse_cuthill_mckee(graph, nodes, order)
+    case ('METIS')
+      call metis_order(graph, nodes, order, status)
+    case default
+      order = nodes
+    end select
+  end subroutine one_order
+
+  !> Reverse Cuthill-McKee (1969; George 1971) on the subgraph of `nodes`, from a node of least
+  !> degree.
+  pure subroutine reverse_cuthill_mckee(graph, nodes, order)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: nodes(:)
+    integer, allocatable, intent(out) :: order(:)
+    integer, allocatable :: by_degree(:), degree(:)
+    logical, allocatable :: free(:)
+    integer :: n, head, tail, start, k, i, added
+    n = size(nodes)
+    allocate (order(n), by_degree(n), free(graph%n))
+    free = .false.
+    free(nodes) = .true.
+    degree = graph%first(nodes + 1) - graph%first(nodes)
+    call sort_order(degree, by_degree)
+    head = 0
+    tail = 0
+    start = 1
+    do while (tail < n)
+      if (head == tail) then
+        do while (.not. free(nodes(by_degree(start))))
+          start = start + 1
+        end do
+        tail = tail + 1
+        order(tail) = nodes(by_degree(start))
+        free(order(tail)) = .false.
+      end if
+      head = head + 1
+      added = tail
+      do k = graph%first(order(head)), graph%first(order(head) + 1) - 1
+        i = graph%column(k)
+        if (.not. free(i)) cycle
+        free(i) = .false.
+        tail = tail + 1
+        order(tail) = i
+      end do
+      call sort_by_degree(graph, order(added + 1:tail))
+    end do
+    order = order(n:1:-1)
+  end subroutine reverse_cuthill_mckee
+
+  pure subroutine sort_by_degree(graph, nodes)
+    type(graph_t), intent(in) :: graph
+    integer, intent(inout) :: nodes(:)
+    integer :: order(size(nodes))
+    call sort_order(graph%first(nodes + 1) - graph%first(nodes), order)
+    nodes = nodes(order)
+  end subroutine sort_by_degree
+
+  !> Nested dissection by METIS (Karypis & Kumar 1998) on the subgraph of `nodes`.
+  subroutine metis_order(graph, nodes, order, status)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: nodes(:)
+    integer, allocatable, intent(out) :: order(:)
+    type(status_t), intent(inout) :: status
+    integer(c_int), allocatable :: xadj(:), adjncy(:), perm(:), iperm(:)
+    integer, allocatable :: local(:)
+    integer :: n, k, m, length, info
+    n = size(nodes)
+    if (n < 2) then
+      order = nodes
+      return
+    end if
+    allocate (local(graph%n), xadj(n + 1), adjncy(size(graph%column)), perm(n), iperm(n))
+    local = 0
+    local(nodes) = [(k, k=1, n)]
+    length = 0
+    do k = 1, n
+      xadj(k) = int(length, c_int)
+      do m = graph%first(nodes(k)), graph%first(nodes(k) + 1) - 1
+        if (local(graph%column(m)) == 0 .or. graph%column(m) == nodes(k)) cycle
+        length = length + 1
+        adjncy(length) = int(local(graph%column(m)) - 1, c_int)
+      end do
+    end do
+    xadj(n + 1) = int(length, c_int)
+    info = int(metis_node_nd(int(n, c_int), xadj, adjncy, c_null_ptr, c_null_ptr, perm, iperm))
+    if (info /= 1) call fail(status, status_numerical, 'METIS found no elimination order', &
+                             hint='choose ORDER RCM on *BIPACT_SOLVER')
+    order = nodes(perm + 1)
+  end subroutine metis_order
+
+  !> Elimination tree and the number of rows below each pivot (Liu 1990; Davis 2005): row k of
+  !> the
+  !> factor holds the nodes met on the paths from its entries in A up the tree. The nodes after
+  !> `leading` are not eliminated: they end a path.
+  pure subroutine symbolic_factor(graph, order, leading, parent, rows)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: order(:)
+    integer, intent(in) :: leading
+    integer, intent(out) :: parent(:)
+    integer, intent(out) :: rows(:)
+    integer, allocatable :: new(:), mark(:)
+    integer :: k, m, i
+    allocate (new(graph%n), mark(graph%n))
+    new(order) = [(k, k=1, graph%n)]
+    parent = 0
+    mark = 0
+    rows = 0
+    do k = 1, graph%n
+      mark(k) = k
+      do m = graph%first(order(k)), graph%first(order(k) + 1) - 1
+        i = new(graph%column(m))
+        do while (i < k .and. i <= leading)
+          if (mark(i) == k) exit
+          if (parent(i) == 0) parent(i) = k
+          rows(i) = rows(i) + 1
+          mark(i) = k
+          i = parent(i)
+        end do
+      end do
+    end do
+  end subroutine symbolic_factor
+
+  !> Multiplications of 2 x 2 blocks that the factor of an order costs: half the sum of the
+  !> squares
+  !> of its column lengths, and the pivots.
+  pure integer(i8) function count_factor(graph, order, leading)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: order(:)
+    integer, intent(in) :: leading
+    integer, allocatable :: parent(:), rows(:)
+    allocate (parent(graph%n), rows(graph%n))
+    call symbolic_factor(graph, order, leading, parent, rows)
+    count_factor = sum(int(rows(1:leading), i8)*int(rows(1:leading) + 3, i8)/2_i8)
+  end function count_factor
+
+end module linalg_order

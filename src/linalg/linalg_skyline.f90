@@ -1,0 +1,184 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The classic profile (skyline) factor A = L D L', one scalar row at a time (Jennings 1966;
+!> Bathe &
+!> Wilson 1976): a small engine, and the oracle for the sparse one. The last nodes stay as a
+!> dense
+!> Schur complement, as everywhere.
+module linalg_skyline
+  use base_kinds, only: wp, i8, zero
+  use base_status, only: status_t, fail, failed, status_numerical
+  use base_strings, only: to_text
+  use linalg_graph, only: graph_t, block_matrix_t
+  use linalg_dense, only: dense_factor
+  use linalg_order, only: choose_order
+  use linalg_solver, only: solver_t
+  implicit none
+  private
+
+  type, extends(solver_t), public :: skyline_t
+    integer :: leading = 0                  !< scalar unknowns eliminated
+    integer, allocatable :: new(:)
+    integer, allocatable :: left(:)         !< (2n) first column of each scalar row
+    !> (2n+1) row i holds columns left(i)..i-1 from start(i)
+    integer, allocatable :: start(:)
+    real(wp), allocatable :: l(:)
+    real(wp), allocatable :: d(:)           !< (2n) pivots
+    real(wp), allocatable :: work(:)
+  contains
+    procedure :: analyse => skyline_analyse
+    procedure :: factor => skyline_factor
+    procedure :: forward => skyline_forward
+    procedure :: backward => skyline_backward
+  end type skyline_t
+
+contains
+
+  !> Order (AUTO = RCM, which keeps a profile short) and profile.
+  subroutine skyline_analyse(this, graph, last, status)
+    class(skyline_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: last(:)
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: wanted
+    integer :: k, m, low
+    wanted = trim(this%options%order)
+    if (wanted == 'AUTO') wanted = 'RCM'
+    this%n = graph%n
+    this%n_last = size(last)
+    this%leading = 2*(graph%n - size(last))
+    this%info%engine = 'SKYLINE'
+    call choose_order(graph, last, wanted, this%order, this%info%order, &
+      this%info%multiplications, status)
+    if (failed(status)) return
+    this%new = this%order
+    this%new(this%order) = [(k, k=1, graph%n)]
+    if (allocated(this%left)) deallocate (this%left, this%start, this%l, this%d, this%work)
+    allocate (this%left(2*graph%n), this%start(2*graph%n + 1), this%d(2*graph%n), &
+      this%work(2*graph%n))
+    this%start(1) = 1
+    do k = 1, graph%n
+      low = k
+      do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
+        low = min(low, this%new(graph%column(m)))
+      end do
+      this%left(2*k - 1:2*k) = 2*low - 1
+      this%start(2*k) = this%start(2*k - 1) + (2*k - 1) - (2*low - 1)
+      this%start(2*k + 1) = this%start(2*k) + 2*k - (2*low - 1)
+    end do
+    allocate (this%l(this%start(2*graph%n + 1) - 1))
+    this%block%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
+    this%info%factor_bytes = 8_i8*size(this%l, kind=i8)
+  end subroutine skyline_analyse
+
+  !> Row-wise LDL'; rows of the block are reduced by the leading columns only.
+  subroutine skyline_factor(this, graph, matrix, status)
+    class(skyline_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    type(block_matrix_t), intent(in) :: matrix
+    type(status_t), intent(inout) :: status
+    integer :: k, m, i, r, row, column
+    this%l = zero
+    do k = 1, this%n
+      do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
+        i = this%new(graph%column(m))
+        do r = 1, 2
+          row = 2*k - 2 + r
+          do column = 2*i - 1, min(2*i, row - 1)
+            this%l(this%start(row) + column - this%left(row)) &
+              = matrix%value(r, column - 2*i + 2, m)
+          end do
+          if (i == k) this%d(row) = matrix%value(r, r, m)
+        end do
+      end do
+    end do
+    do row = 1, 2*this%n
+      call reduce_row(this, row)
+      if (row > this%leading) cycle
+      if (this%d(row) > zero .and. this%d(row) <= huge(zero)) cycle
+      call fail(status, status_numerical, 'lost pivot at node index '// &
+                to_text(this%order((row + 1)/2))// &
+                  ': the effective matrix is not positive definite')
+      return
+    end do
+    call take_block(this)
+    call dense_factor(this%block, status)
+  end subroutine skyline_factor
+
+  !> Reduces one row: first to L D entries by the rows above (columns of the block take only the
+  !> leading part), then to L and the pivot.
+  subroutine reduce_row(this, row)
+    type(skyline_t), intent(inout) :: this
+    integer, intent(in) :: row
+    integer :: column, low, count, top
+    real(wp) :: entry
+    do column = this%left(row), row - 1
+      low = max(this%left(row), this%left(column))
+      top = min(column - 1, this%leading)
+      count = top - low + 1
+      if (count <= 0) cycle
+      associate (a => this%start(row) + low - this%left(row), b => this%start(column) &
+        + low - this%left(column))
+        this%l(this%start(row) + column - this%left(row)) = &
+          this%l(this%start(row) + column - this%left(row)) &
+          - dot_product(this%l(a:a + count - 1), this%l(b:b + count - 1))
+      end associate
+    end do
+    do column = this%left(row), min(row - 1, this%leading)
+      associate (l => this%l(this%start(row) + column - this%left(row)))
+        entry = l
+        l = entry/this%d(column)
+        this%d(row) = this%d(row) - l*entry
+      end associate
+    end do
+  end subroutine reduce_row
+
+  subroutine take_block(this)
+    type(skyline_t), intent(inout) :: this
+    integer :: row, column
+    do row = this%leading + 1, 2*this%n
+      this%block%l(row - this%leading, row - this%leading) = this%d(row)
+      do column = this%leading + 1, row - 1
+        if (column < this%left(row)) cycle
+        this%block%l(row - this%leading, column - this%leading) = &
+          this%l(this%start(row) + column - this%left(row))
+      end do
+    end do
+  end subroutine take_block
+
+  !> Forward pass over the leading rows, then the rows of the block.
+  subroutine skyline_forward(this, b, b_last)
+    class(skyline_t), intent(inout) :: this
+    real(wp), intent(in) :: b(:, :)
+    real(wp), intent(out) :: b_last(:, :)
+    integer :: k, row, top
+    do k = 1, this%n
+      this%work(2*k - 1:2*k) = b(:, this%order(k))
+    end do
+    do row = 1, 2*this%n
+      top = min(row - 1, this%leading)
+      this%work(row) = this%work(row) - dot_product(this%l(this%start(row):this%start(row) &
+        + top - this%left(row)), &
+                                                    this%work(this%left(row):top))
+    end do
+    b_last = reshape(this%work(this%leading + 1:), [2, this%n_last])
+    this%work(1:this%leading) = this%work(1:this%leading)/this%d(1:this%leading)
+  end subroutine skyline_forward
+
+  !> Backward pass: each known unknown is taken out of the rows before it.
+  subroutine skyline_backward(this, x_last, x)
+    class(skyline_t), intent(inout) :: this
+    real(wp), intent(in) :: x_last(:, :)
+    real(wp), intent(out) :: x(:, :)
+    integer :: k, row, top
+    this%work(this%leading + 1:) = reshape(x_last, [2*this%n_last])
+    do row = 2*this%n, 1, -1
+      top = min(row - 1, this%leading)
+      this%work(this%left(row):top) = this%work(this%left(row):top) &
+        - this%work(row)*this%l(this%start(row):this%start(row) + top - this%left(row))
+    end do
+    do k = 1, this%n
+      x(:, this%order(k)) = this%work(2*k - 1:2*k)
+    end do
+  end subroutine skyline_backward
+
+end module linalg_skyline

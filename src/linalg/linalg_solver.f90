@@ -1,0 +1,113 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What every direct solver of A x = b offers, with the dofs of chosen nodes (the contact block)
+!> last:
+!>   analyse -> factor -> [forward -> solve_last ... -> backward] per step.
+!> forward reduces b to the block: S x_last = b_last with the Schur complement S; all contact
+!> iterations happen there; backward gives the rest of x. Vectors are (2, n) in node order,
+!> those
+!> of the block (2, m) in the order of `last`.
+module linalg_solver
+  use base_kinds, only: wp, i8
+  use base_status, only: status_t
+  use linalg_graph, only: graph_t, block_matrix_t
+  use linalg_dense, only: dense_spd_t, dense_solve, dense_inverse
+  implicit none
+  private
+
+  type, public :: solver_options_t
+    character(8) :: engine = 'AUTO'
+    character(8) :: order = 'AUTO'
+    integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
+    !> A pivot below this share of its own diagonal before elimination counts as null: its
+    !> unknown
+    !> is set to zero. 0 = null pivots are an error.
+    real(wp) :: null_pivot = 0.0_wp
+  end type solver_options_t
+
+  type, public :: solver_info_t
+    character(:), allocatable :: engine
+    character(:), allocatable :: order
+    integer(i8) :: multiplications = 0_i8  !< per factorisation, in 2 x 2 blocks
+    integer(i8) :: factor_bytes = 0_i8
+    integer :: null_pivots = 0
+  end type solver_info_t
+
+  type, abstract, public :: solver_t
+    type(solver_options_t) :: options
+    type(solver_info_t) :: info
+    integer :: n = 0
+    integer :: n_last = 0
+    integer, allocatable :: order(:)  !< (n) new -> old
+    type(dense_spd_t) :: block        !< Schur complement S of the last nodes
+  contains
+    procedure(analyse_i), deferred :: analyse
+    procedure(factor_i), deferred :: factor
+    procedure(forward_i), deferred :: forward
+    procedure :: solve_last
+    procedure :: flexibility
+    procedure(backward_i), deferred :: backward
+  end type solver_t
+
+  abstract interface
+    !> Symbolic part: elimination order with the nodes `last` at the end, storage.
+    subroutine analyse_i(this, graph, last, status)
+      import :: solver_t, graph_t, status_t
+      class(solver_t), intent(inout) :: this
+      type(graph_t), intent(in) :: graph
+      integer, intent(in) :: last(:)
+      type(status_t), intent(inout) :: status
+    end subroutine analyse_i
+    !> Numerical part; a lost pivot is a failure that names its node (index).
+    subroutine factor_i(this, graph, matrix, status)
+      import :: solver_t, graph_t, block_matrix_t, status_t
+      class(solver_t), intent(inout) :: this
+      type(graph_t), intent(in) :: graph
+      type(block_matrix_t), intent(in) :: matrix
+      type(status_t), intent(inout) :: status
+    end subroutine factor_i
+    !> Eliminates the leading unknowns from b; b_last is what remains for the block.
+    subroutine forward_i(this, b, b_last)
+      import :: solver_t, wp
+      class(solver_t), intent(inout) :: this
+      real(wp), intent(in) :: b(:, :)
+      real(wp), intent(out) :: b_last(:, :)
+    end subroutine forward_i
+    !> Whole solution from that of the block, after `forward`.
+    subroutine backward_i(this, x_last, x)
+      import :: solver_t, wp
+      class(solver_t), intent(inout) :: this
+      real(wp), intent(in) :: x_last(:, :)
+      real(wp), intent(out) :: x(:, :)
+    end subroutine backward_i
+  end interface
+
+  public :: solve_whole
+
+contains
+
+  !> x_last = S^-1 x_last, x_last (2, m).
+  subroutine solve_last(this, x_last)
+    class(solver_t), intent(in) :: this
+    real(wp), intent(inout) :: x_last(:, :)
+    if (this%n_last > 0) call dense_solve(this%block, 2*this%n_last, x_last)
+  end subroutine solve_last
+
+  !> Flexibility of the block, S^-1, as (2m, 2m) [L/F], symmetric to the last bit.
+  subroutine flexibility(this, f)
+    class(solver_t), intent(in) :: this
+    real(wp), intent(out) :: f(:, :)
+    if (this%n_last > 0) call dense_inverse(this%block, f)
+  end subroutine flexibility
+
+  !> x = A^-1 b in one call, for set-up work outside the step loop.
+  subroutine solve_whole(solver, b, x)
+    class(solver_t), intent(inout) :: solver
+    real(wp), intent(in) :: b(:, :)
+    real(wp), intent(out) :: x(:, :)
+    real(wp) :: x_last(2, solver%n_last)
+    call solver%forward(b, x_last)
+    call solver%solve_last(x_last)
+    call solver%backward(x_last, x)
+  end subroutine solve_whole
+
+end module linalg_solver

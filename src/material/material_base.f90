@@ -1,0 +1,40 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a material offers to an element: plain numbers, no mesh.
+module material_base
+  use base_kinds, only: wp
+  implicit none
+  private
+  integer, parameter, public :: plane_stress = 12
+  integer, parameter, public :: plane_strain = 13
+
+  type, abstract, public :: material_t
+    integer :: id = 0
+    real(wp) :: density = 0.0_wp   !< [M/L3]
+  contains
+    procedure(moduli_i), deferred :: moduli
+    procedure(speed_i), deferred :: wave_speed
+  end type material_t
+
+  !> A material in a list of materials of several kinds.
+  type, public :: material_slot_t
+    class(material_t), allocatable :: item
+  end type material_slot_t
+
+  abstract interface
+    !> Elastic matrix D (3, 3) [F/L2] for (exx, eyy, gxy) in plane strain or plane stress.
+    pure function moduli_i(this, plane) result(d)
+      import :: material_t, wp
+      class(material_t), intent(in) :: this
+      integer, intent(in) :: plane
+      real(wp) :: d(3, 3)
+    end function moduli_i
+    !> Speed of plane pressure waves in this law [L/T].
+    pure function speed_i(this, plane) result(c)
+      import :: material_t, wp
+      class(material_t), intent(in) :: this
+      integer, intent(in) :: plane
+      real(wp) :: c
+    end function speed_i
+  end interface
+
+end module material_base

@@ -1,0 +1,48 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Linear elastic, isotropic material in the plane.
+module material_elastic
+  use base_kinds, only: wp, zero, one, two, half
+  use material_base, only: material_t, plane_stress
+  implicit none
+  private
+
+  type, extends(material_t), public :: elastic_t
+    real(wp) :: young = 0.0_wp     !< E [F/L2]
+    real(wp) :: poisson = 0.0_wp   !< nu
+  contains
+    procedure :: moduli => elastic_moduli
+    procedure :: wave_speed => elastic_wave_speed
+  end type elastic_t
+
+contains
+
+  !> Hooke's law (Zienkiewicz & Taylor 2000, vol. 1, 4.2).
+  pure function elastic_moduli(this, plane) result(d)
+    class(elastic_t), intent(in) :: this
+    integer, intent(in) :: plane
+    real(wp) :: d(3, 3), axial, ratio
+    if (plane == plane_stress) then
+      axial = this%young/(one - this%poisson**2)
+      ratio = this%poisson
+    else
+      axial = this%young*(one - this%poisson)/((one + this%poisson)*(one - two*this%poisson))
+      ratio = this%poisson/(one - this%poisson)
+    end if
+    d = zero
+    d(1, 1) = axial
+    d(2, 2) = axial
+    d(1, 2) = ratio*axial
+    d(2, 1) = ratio*axial
+    d(3, 3) = half*this%young/(one + this%poisson)
+  end function elastic_moduli
+
+  !> c_p: (lambda + 2G)/rho in plane strain, E/(rho(1 - nu^2)) in plane stress.
+  pure function elastic_wave_speed(this, plane) result(c)
+    class(elastic_t), intent(in) :: this
+    integer, intent(in) :: plane
+    real(wp) :: c, d(3, 3)
+    d = this%moduli(plane)
+    c = sqrt(d(1, 1)/this%density)
+  end function elastic_wave_speed
+
+end module material_elastic

@@ -1,0 +1,55 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What changes during a run, apart from contact and ledger: everything a restart must hold of
+!> the
+!> bodies.
+module model_state
+  use base_archive, only: archive_t
+  use base_kinds, only: wp, zero
+  implicit none
+  private
+
+  type, public :: state_t
+    integer :: cycle = 0
+    real(wp) :: time = zero
+    real(wp), allocatable :: u(:, :)    !< (2, n) displacement [L]
+    real(wp), allocatable :: v(:, :)    !< (2, n) velocity [L/T]
+    real(wp), allocatable :: du(:, :)   !< (2, n) displacement of the step just done [L]
+    !> (2, n) acceleration [L/T2], only for schemes that have one
+    real(wp), allocatable :: a(:, :)
+    real(wp) :: h_last = zero           !< length of the step just done [T]
+  end type state_t
+
+  public :: make_state, exchange_state
+
+contains
+
+  !> The state at t = 0.
+  pure subroutine make_state(v0, with_acceleration, state)
+    real(wp), intent(in) :: v0(:, :)
+    logical, intent(in) :: with_acceleration
+    type(state_t), intent(out) :: state
+    integer :: n
+    n = size(v0, 2)
+    allocate (state%u(2, n), state%v(2, n), state%du(2, n))
+    state%u = zero
+    state%v = v0
+    state%du = zero
+    if (.not. with_acceleration) return
+    allocate (state%a(2, n))
+    state%a = zero
+  end subroutine make_state
+
+  !> Saves to or restores from the archive.
+  subroutine exchange_state(archive, state)
+    type(archive_t), intent(inout) :: archive
+    type(state_t), intent(inout) :: state
+    call archive%exchange('state.cycle', state%cycle)
+    call archive%exchange('state.time', state%time)
+    call archive%exchange('state.h', state%h_last)
+    call archive%exchange('state.u', state%u)
+    call archive%exchange('state.v', state%v)
+    call archive%exchange('state.du', state%du)
+    if (allocated(state%a)) call archive%exchange('state.a', state%a)
+  end subroutine exchange_state
+
+end module model_state

@@ -1,0 +1,150 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A table: header, rows of constant width, a closing line. Rows are collected and written many
+!> at a
+!> time, always whole.
+module output_table
+  use base_format, only: real_writer_t, real_width, put_real, put_integer
+  use base_kinds, only: wp, zero
+  use base_status, only: status_t, fail, status_file
+  use base_strings, only: join_path, to_text
+  use base_version, only: version
+  implicit none
+  private
+  integer, parameter :: buffer_size = 32768
+  integer, parameter :: integer_width = 11
+
+  type, public :: table_file_t
+    logical :: on = .false.
+    real(wp) :: interval = zero   !< [T]
+    integer :: next = 0           !< rows are due from next*interval on
+    integer :: unit = -1
+    integer :: filled = 0
+    character(:), allocatable :: path
+    character(:), allocatable :: buffer
+  end type table_file_t
+
+  public :: open_table, row_is_due, begin_row, add_number, add_count, end_row, close_table
+
+contains
+
+  !> Opens NAME.tab in a folder when its interval is not zero, and writes its header.
+  subroutine open_table(table, folder, name, interval, title, columns, status)
+    type(table_file_t), intent(inout) :: table
+    character(*), intent(in) :: folder, name, title, columns
+    real(wp), intent(in) :: interval
+    type(status_t), intent(inout) :: status
+    character(200) :: reason
+    integer :: ios
+    table%on = interval > zero
+    table%interval = interval
+    table%path = join_path(folder, name//'.tab')
+    if (.not. table%on) then
+      call remove_old(table%path)
+      return
+    end if
+    allocate (character(buffer_size) :: table%buffer)
+    open (newunit=table%unit, file=table%path, access='stream', form='unformatted', &
+          status='replace', action='write', iostat=ios, iomsg=reason)
+    if (ios /= 0) then
+      call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))
+      table%on = .false.
+      return
+    end if
+    call add_line(table, '# '//name//': '//trim(title))
+    call add_line(table, '# bipact '//version//'; units as in the deck')
+    call add_line(table, '# '//columns)
+  end subroutine open_table
+
+  !> A table of an earlier run must not pass for one of this run.
+  subroutine remove_old(path)
+    character(*), intent(in) :: path
+    logical :: there
+    integer :: unit, ios
+    inquire (file=path, exist=there)
+    if (.not. there) return
+    open (newunit=unit, file=path, iostat=ios)
+    if (ios == 0) close (unit, status='delete', iostat=ios)
+  end subroutine remove_old
+
+  !> True when a row is due: the first step end with t >= k DT - 1e-9 dt, and always at t = 0.
+  logical function row_is_due(table, time, h)
+    type(table_file_t), intent(in) :: table
+    real(wp), intent(in) :: time, h
+    row_is_due = table%on
+    if (row_is_due) row_is_due = time >= table%next*table%interval - 1.0e-9_wp*h
+  end function row_is_due
+
+  !> Starts a row; at the end of a run `last` makes it due whatever the time. Sets when the next
+  !> is due.
+  subroutine begin_row(table, time, h, status)
+    type(table_file_t), intent(inout) :: table
+    real(wp), intent(in) :: time, h
+    type(status_t), intent(inout) :: status
+    table%next = floor((time + 1.0e-9_wp*h)/table%interval) + 1
+    if (table%filled + 1024 > buffer_size) call write_out(table, status)
+  end subroutine begin_row
+
+  !> Adds a real number to the row.
+  subroutine add_number(table, writer, number)
+    type(table_file_t), intent(inout) :: table
+    type(real_writer_t), intent(in) :: writer
+    real(wp), intent(in) :: number
+    associate (at => table%filled)
+      table%buffer(at + 1:at + 1) = ' '
+      call put_real(writer, number, table%buffer(at + 2:at + 1 + real_width))
+      at = at + 1 + real_width
+    end associate
+  end subroutine add_number
+
+  !> Adds an integer to the row.
+  subroutine add_count(table, number)
+    type(table_file_t), intent(inout) :: table
+    integer, intent(in) :: number
+    associate (at => table%filled)
+      call put_integer(number, table%buffer(at + 1:at + integer_width))
+      at = at + integer_width
+    end associate
+  end subroutine add_count
+
+  !> Ends the row.
+  subroutine end_row(table)
+    type(table_file_t), intent(inout) :: table
+    table%filled = table%filled + 1
+    table%buffer(table%filled:table%filled) = new_line('a')
+  end subroutine end_row
+
+  subroutine add_line(table, line)
+    type(table_file_t), intent(inout) :: table
+    character(*), intent(in) :: line
+    table%buffer(table%filled + 1:table%filled + len(line)) = line
+    table%filled = table%filled + len(line)
+    call end_row(table)
+  end subroutine add_line
+
+  subroutine write_out(table, status)
+    type(table_file_t), intent(inout) :: table
+    type(status_t), intent(inout) :: status
+    character(200) :: reason
+    integer :: ios
+    write (table%unit, iostat=ios, iomsg=reason) table%buffer(1:table%filled)
+    if (ios == 0) flush (table%unit, iostat=ios, iomsg=reason)
+    table%filled = 0
+    if (ios /= 0) call fail(status, status_file, 'cannot write "'//table%path//'": '// &
+      trim(reason))
+  end subroutine write_out
+
+  !> Writes what is left and the closing line "# end: done | failed | stopped, cycle N".
+  subroutine close_table(table, ending, cycle, status)
+    type(table_file_t), intent(inout) :: table
+    character(*), intent(in) :: ending
+    integer, intent(in) :: cycle
+    type(status_t), intent(inout) :: status
+    if (.not. table%on) return
+    if (table%filled + 256 > buffer_size) call write_out(table, status)
+    call add_line(table, '# end: '//ending//', cycle '//to_text(cycle))
+    call write_out(table, status)
+    close (table%unit)
+    table%on = .false.
+  end subroutine close_table
+
+end module output_table

@@ -1,0 +1,95 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The command line.
+module run_arguments
+  use base_status, only: status_t, fail, failed, status_file
+  use deck_parameter, only: override_t
+  implicit none
+  private
+
+  type, public :: arguments_t
+    character(:), allocatable :: deck
+    character(:), allocatable :: folder
+    type(override_t), allocatable :: override(:)
+    logical :: check = .false., plan = .false., quiet = .false.
+    logical :: keywords = .false., help = .false., version = .false.
+  end type arguments_t
+
+  public :: read_arguments
+
+contains
+
+  !> Reads the arguments of the program; fails on one that is unknown or incomplete.
+  subroutine read_arguments(arguments, status)
+    type(arguments_t), intent(out) :: arguments
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: word
+    integer :: k
+    allocate (arguments%override(0))
+    k = 1
+    do while (k <= command_argument_count() .and. .not. failed(status))
+      word = argument(k)
+      select case (word)
+      case ('-o', '-D')
+        k = k + 1
+        if (k > command_argument_count()) then
+          call fail(status, status_file, word//' needs a value', hint='bipact --help')
+        else if (word == '-o') then
+          arguments%folder = argument(k)
+        else
+          call add_override(arguments, argument(k), status)
+        end if
+      case ('--check')
+        arguments%check = .true.
+      case ('--plan')
+        arguments%plan = .true.
+      case ('--quiet')
+        arguments%quiet = .true.
+      case ('--keywords')
+        arguments%keywords = .true.
+      case ('--help', '-h')
+        arguments%help = .true.
+      case ('--version')
+        arguments%version = .true.
+      case default
+        if (index(word, '-D') == 1 .and. len(word) > 2) then
+          call add_override(arguments, word(3:), status)
+        else if (word(1:min(1, len(word))) == '-') then
+          call fail(status, status_file, 'unknown option "'//word//'"', hint='bipact --help')
+        else if (allocated(arguments%deck)) then
+          call fail(status, status_file, 'more than one deck: "'//arguments%deck//'" and "'// &
+                    word//'"', hint='bipact --help')
+        else
+          arguments%deck = word
+        end if
+      end select
+      k = k + 1
+    end do
+    if (allocated(arguments%deck) .or. arguments%keywords .or. arguments%help .or. &
+        arguments%version) return
+    call fail(status, status_file, 'no deck given', hint='bipact DECK; bipact --help')
+  end subroutine read_arguments
+
+  function argument(k) result(text)
+    integer, intent(in) :: k
+    character(:), allocatable :: text
+    integer :: length
+    call get_command_argument(k, length=length)
+    allocate (character(length) :: text)
+    call get_command_argument(k, text)
+  end function argument
+
+  subroutine add_override(arguments, text, status)
+    type(arguments_t), intent(inout) :: arguments
+    character(*), intent(in) :: text
+    type(status_t), intent(inout) :: status
+    integer :: equal
+    equal = index(text, '=')
+    if (equal < 2 .or. equal == len(text) .or. equal > 11) then
+      call fail(status, status_file, 'expected -D name=value, found "'//text//'"')
+      return
+    end if
+    arguments%override = [arguments%override, override_t(name=text(1:equal - 1), &
+                                                         value=text(equal + 1:))]
+  end subroutine add_override
+
+end module run_arguments

@@ -1,0 +1,66 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Everything a run consists of, and the order to make it (run_setup), plan it (run_plan), go
+!> through it (run_loop) and tell of it (run_report).
+module run_data
+  use assembly_system, only: system_t
+  use base_kinds, only: wp, zero
+  use base_timers, only: timers_t
+  use contact_types, only: contact_t
+  use cone_types, only: cone_options_t
+  use deck_data, only: deck_t
+  use linalg_graph, only: block_matrix_t
+  use linalg_solver, only: solver_t, solver_options_t
+  use model_data, only: model_t
+  use model_state, only: state_t
+  use output_rows, only: tables_t
+  use time_base, only: scheme_t
+  use time_ledger, only: ledger_t
+  implicit none
+  private
+
+  !> What this scene needs, each with its reason; what is off is not allocated and not called.
+  type, public :: feature_t
+    character(12) :: name = ''
+    logical :: on = .false.
+    character(:), allocatable :: reason
+  end type feature_t
+
+  type, public :: plan_t
+    integer :: n = 0
+    type(feature_t) :: feature(24)
+    logical :: contact = .false.
+    logical :: loads = .false.
+    logical :: ledger = .false.
+    integer :: full_steps = 0
+    real(wp) :: last_step = zero     !< length of a cut last step; 0 = none [T]
+  end type plan_t
+
+  type, public :: run_t
+    type(deck_t) :: deck
+    type(model_t) :: model
+    type(plan_t) :: plan
+    type(cone_options_t) :: cone
+    type(solver_options_t) :: solver_options
+    type(state_t) :: state
+    type(system_t) :: system
+    class(scheme_t), allocatable :: scheme
+    class(solver_t), allocatable :: solver
+    type(block_matrix_t) :: matrix
+    type(contact_t) :: contact
+    type(ledger_t) :: ledger
+    type(tables_t) :: tables
+    type(timers_t) :: timers
+    real(wp), allocatable :: b(:, :), x(:, :)              !< (2, n)
+    real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (2, n) only with loads [F]
+    real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) contact block
+    real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
+    integer :: factors = 0, analyses = 0, solves = 0
+    real(wp) :: rotation = zero        !< largest seen [radians]
+    integer :: rotation_element = 0
+    logical :: growth_warned = .false.
+    character(:), allocatable :: folder
+    logical :: quiet = .false.
+    integer :: log_unit = -1
+  end type run_t
+
+end module run_data

@@ -1,0 +1,219 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The step loop.
+module run_loop
+  use assembly_forces, only: add_loads, largest_rotation
+  use assembly_system, only: clear_fixed
+  use base_kinds, only: wp, zero, one
+  use base_signal, only: stop_asked
+  use base_status, only: status_t, fail, failed, add_place, status_numerical, status_stopped
+  use base_strings, only: to_text
+  use base_timers, only: phase_product, phase_solve, phase_search, phase_contact, &
+    phase_update, &
+    phase_energy, phase_output, phase_other
+  use contact_condense, only: build_w
+  use contact_setup, only: find_candidates
+  use contact_stage, only: solve_contact, settle_contact
+  use contact_work, only: add_contact_step, contact_work_t
+  use output_rows, only: any_due, energies_due, write_rows
+  use run_data, only: run_t
+  use run_progress, only: progress_t, show_progress, clear_progress
+  use run_setup, only: factor_matrix
+  use time_ledger, only: evaluate_ledger
+  implicit none
+  private
+  public :: go_through_steps, advance
+
+contains
+
+  !> All steps from the state as it is to the end; rows of the tables on the way.
+  subroutine go_through_steps(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    type(progress_t) :: progress
+    integer :: steps
+    steps = run%plan%full_steps
+    if (run%plan%last_step > zero) steps = steps + 1
+    call tell(run, .false., status)
+    do while (run%state%cycle < steps .and. .not. failed(status))
+      if (run%state%cycle == run%plan%full_steps) call cut_step(run, status)
+      call advance(run, status)
+      call tell(run, run%state%cycle == steps .or. failed(status), status)
+      if (stop_asked()) call fail(status, status_stopped, 'stopped by a signal')
+      call show_progress(progress, run%quiet, run%state%cycle, steps, run%state%time)
+    end do
+    call clear_progress(progress)
+  end subroutine go_through_steps
+
+  !> One step, stage by stage: free motion, contact on its block, whole motion, new state,
+  !> ledger.
+  subroutine advance(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    real(wp) :: t1
+    integer :: stage
+    logical :: acting
+    t1 = merge(run%model%controls%end_time, (run%state%cycle + 1)*run%model%controls%dt, &
+               run%state%cycle == run%plan%full_steps)
+    if (run%plan%contact) call prepare_contact(run, t1, status)
+    if (failed(status)) return
+    do stage = 1, size(run%scheme%stage)
+      call run%timers%enter(phase_product)
+      run%b = zero
+      if (run%plan%loads) call weigh_loads(run, t1)
+      call run%scheme%right_side(stage, run%system, run%state, run%b)
+      if (run%system%any_fixed) call clear_fixed(run%system, run%b)
+      call run%timers%enter(phase_solve)
+      call run%solver%forward(run%b, run%b_last)
+      run%x_last = run%b_last
+      call run%solver%solve_last(run%x_last)
+      if (run%plan%contact) call add_contact(run, acting, status)
+      call run%solver%backward(run%x_last, run%x)
+      run%solves = run%solves + 1
+      call run%timers%enter(phase_update)
+      call run%scheme%update(stage, run%x, run%state)
+      run%state%du = run%x
+    end do
+    run%state%cycle = run%state%cycle + 1
+    run%state%time = t1
+    run%state%h_last = run%scheme%h
+    call check_finite(run, status)
+    call account(run, acting, status)
+    call add_place(status, 'step '//to_text(run%state%cycle)//', time '// &
+      to_text(run%state%time))
+  end subroutine advance
+
+  !> Candidates for the step; a larger block means another elimination order.
+  subroutine prepare_contact(run, t1, status)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: t1
+    type(status_t), intent(inout) :: status
+    logical :: new_block
+    call run%timers%enter(phase_search)
+    call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
+                         run%scheme%h, run%state%cycle, t1, new_block, status)
+    call add_place(status, 'step '//to_text(run%state%cycle)//', time '// &
+      to_text(run%state%time))
+    if (new_block) call factor_matrix(run, .true., status)
+  end subroutine prepare_contact
+
+  !> Contact on the block: reactions for the free motion x_last, then the motion with them.
+  subroutine add_contact(run, acting, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(out) :: acting
+    type(status_t), intent(inout) :: status
+    call run%timers%enter(phase_contact)
+    call build_w(run%contact)
+    call solve_contact(run%contact, run%x_last, run%force, acting, status)
+    call run%timers%enter(phase_solve)
+    if (.not. acting) return
+    call clear_block_forces(run)
+    run%x_last = run%b_last + run%force
+    call run%solver%solve_last(run%x_last)
+  end subroutine add_contact
+
+  subroutine clear_block_forces(run)
+    type(run_t), intent(inout) :: run
+    integer :: k, row
+    do k = 1, size(run%system%fixed_list, 2)
+      row = run%contact%block_row(run%system%fixed_list(2, k))
+      if (row > 0) run%force(run%system%fixed_list(1, k), row) = zero
+    end do
+  end subroutine clear_block_forces
+
+  !> Loads at both ends of the step, and their weighted sum into b.
+  subroutine weigh_loads(run, t1)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: t1
+    run%load_0 = zero
+    run%load_1 = zero
+    call add_loads(run%model, run%system, run%state%time, one, run%load_0)
+    call add_loads(run%model, run%system, t1, one, run%load_1)
+    run%b = run%scheme%load_weight(1)*run%load_0 + run%scheme%load_weight(2)*run%load_1
+  end subroutine weigh_loads
+
+  subroutine check_finite(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    if (abs(sum(run%x)) <= huge(one)) return
+    call fail(status, status_numerical, &
+      'the displacements are no numbers any more (NaN or infinite)', &
+              hint='check units, densities and the time step')
+  end subroutine check_finite
+
+  !> Works of the step into the ledger.
+  subroutine account(run, acting, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: acting
+    type(status_t), intent(inout) :: status
+    call run%timers%enter(phase_energy)
+    if (run%plan%loads) run%ledger%external = run%ledger%external &
+      + sum(run%state%du*(run%scheme%load_work_weight(1)*run%load_0 &
+                          + run%scheme%load_work_weight(2)*run%load_1))
+    if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
+                                                        + run%scheme%dissipation(run%system, &
+                                                          run%state)
+    if (.not. run%plan%contact) return
+    call run%timers%enter(phase_contact)
+    call settle_contact(run%model, run%contact, run%state%du, acting, status)
+    call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
+                          run%scheme%h, run%state%du, run%ledger%contact)
+  end subroutine account
+
+  !> Rows that are due, and what must be watched at such times.
+  subroutine tell(run, last, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: last
+    type(status_t), intent(inout) :: status
+    logical :: energies
+    real(wp) :: h
+    h = run%scheme%h
+    energies = energies_due(run%tables, run%state%time, h, last) .or. last
+    if (run%model%controls%ledger_every > 0) energies = energies .or. &
+      mod(run%state%cycle, run%model%controls%ledger_every) == 0
+    if (energies) call watch(run, status)
+    if (.not. (run%tables%any_on .and. last)) then
+      if (.not. any_due(run%tables, run%state%time, h)) return
+    end if
+    call run%timers%enter(phase_output)
+    run%tables%factors = run%factors
+    run%tables%solves = run%solves
+    call write_rows(run%tables, run%model, run%state, run%ledger, run%contact, run%timers, h, &
+      last, &
+                    status)
+    call run%timers%enter(phase_other)
+  end subroutine tell
+
+  !> Energies, growth of energy, rotation of elements.
+  subroutine watch(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    real(wp) :: angle
+    integer :: element
+    call run%timers%enter(phase_energy)
+    call evaluate_ledger(run%model, run%system, run%state, run%ledger)
+    call largest_rotation(run%system, run%model%x, run%state%u, angle, element)
+    if (angle > run%rotation) then
+      run%rotation = angle
+      run%rotation_element = element
+    end if
+    if (run%ledger%largest_growth > run%model%controls%growth) then
+      run%ledger%growths = run%ledger%growths + 1
+      if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
+      if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
+        'energy growth of '//to_text(run%ledger%largest_growth)//' of the largest term', &
+        place='step '//to_text(run%state%cycle), hint='choose SCHEME THETA, or ACTION WARN')
+    end if
+    if (.not. abs(run%ledger%total) <= huge(one)) call fail(status, status_numerical, &
+      'the energy is no number any more (NaN or infinite)')
+    call run%timers%enter(phase_other)
+  end subroutine watch
+
+  !> The last step is shorter: another effective matrix.
+  subroutine cut_step(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call run%scheme%set_step(run%plan%last_step)
+    call factor_matrix(run, .false., status)
+  end subroutine cut_step
+
+end module run_loop

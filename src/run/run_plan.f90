@@ -1,0 +1,121 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The scene plan: which features this scene needs, and why. The rest is not allocated, not
+!> called.
+module run_plan
+  use base_kinds, only: wp, zero
+  use base_status, only: status_t, fail, status_deck
+  use base_strings, only: to_text
+  use model_data, only: model_t
+  use run_data, only: plan_t
+  implicit none
+  private
+  public :: make_plan, plan_line
+
+contains
+
+  !> Plans the run of a model; fails where a feature cannot do what the deck asks.
+  subroutine make_plan(model, plan, status)
+    type(model_t), intent(in) :: model
+    type(plan_t), intent(inout) :: plan
+    type(status_t), intent(inout) :: status
+    call plan_steps(model, plan, status)
+    call plan_contact(model, plan)
+    plan%loads = size(model%load) + size(model%gravity) > 0
+    call add(plan, 'loads', plan%loads, to_text(size(model%load))//' nodal, '// &
+             to_text(size(model%gravity))//' body')
+    call add(plan, 'supports', any(model%fixed), to_text(count(model%fixed))//' fixed dofs')
+    call add(plan, 'massless', model%controls%redistribute, 'REDIST '// &
+             merge('1', '0', model%controls%redistribute))
+    call add(plan, 'kinematics', .false., 'small displacements: one stiffness, factored once')
+    call plan_tables(model, plan)
+  end subroutine make_plan
+
+  !> Number of steps; an end time that is no whole number of steps cuts the last one.
+  subroutine plan_steps(model, plan, status)
+    type(model_t), intent(in) :: model
+    type(plan_t), intent(inout) :: plan
+    type(status_t), intent(inout) :: status
+    real(wp) :: steps
+    associate (c => model%controls)
+      steps = c%end_time/c%dt
+      if (.not. steps < 2.0e9_wp) then
+        call fail(status, status_deck, 'ENDTIM/DT0 asks for more than 2e9 steps')
+        return
+      end if
+      plan%full_steps = nint(steps)
+      if (abs(steps - plan%full_steps) > 1.0e-9_wp*max(1.0_wp, steps)) then
+        plan%full_steps = int(steps)
+        plan%last_step = c%end_time - plan%full_steps*c%dt
+        if (c%mass == 'DISPERSION' .and. c%courant < zero) call fail(status, status_deck, &
+          'ENDTIM is no whole number of steps DT0, and the mass DISPERSION is tuned to one step', &
+          hint='change ENDTIM or DT0')
+      end if
+      if (c%end_cycle > 0 .and. c%end_cycle <= plan%full_steps) then
+        plan%full_steps = c%end_cycle
+        plan%last_step = zero
+      end if
+      call add(plan, 'steps', .true., to_text(plan%full_steps)//' of '//to_text(c%dt))
+      call add(plan, 'cut step', plan%last_step > zero, 'ENDTIM/DT0 = '//to_text(steps))
+    end associate
+  end subroutine plan_steps
+
+  subroutine plan_contact(model, plan)
+    type(model_t), intent(in) :: model
+    type(plan_t), intent(inout) :: plan
+    logical :: friction
+    plan%contact = size(model%contact) > 0
+    friction = .false.
+    if (plan%contact) friction = any(model%contact%mu > zero)
+    call add(plan, 'contact', plan%contact, to_text(size(model%contact))//' contact card(s)')
+    if (.not. plan%contact) then
+      call add(plan, 'friction', .false., 'no contact')
+    else if (friction) then
+      call add(plan, 'friction', .true., 'mu = '//to_text(maxval(model%contact%mu))//' at most')
+    else
+      call add(plan, 'friction', .false., 'mu = 0 in all pairs: scalar contact rows only')
+    end if
+  end subroutine plan_contact
+
+  subroutine plan_tables(model, plan)
+    type(model_t), intent(in) :: model
+    type(plan_t), intent(inout) :: plan
+    associate (r => model%requests)
+      plan%ledger = r%glstat > zero .or. r%matsum > zero .or. model%controls%ledger_every > 0
+      call add(plan, 'glstat', r%glstat > zero, 'every '//to_text(r%glstat))
+      call add(plan, 'matsum', r%matsum > zero, 'every '//to_text(r%matsum))
+      call add(plan, 'nodout', r%nodout > zero, to_text(size(r%history_node))// &
+        ' nodes, every '// &
+               to_text(r%nodout))
+      call add(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
+      call add(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
+      call add(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))
+      if (model%controls%ledger_every > 0) then
+        call add(plan, 'ledger', .true., 'every '//to_text(model%controls%ledger_every)// &
+          ' steps')
+      else
+        call add(plan, 'ledger', .true., 'with GLSTAT, and at the end')
+      end if
+    end associate
+  end subroutine plan_tables
+
+  subroutine add(plan, name, on, reason)
+    type(plan_t), intent(inout) :: plan
+    character(*), intent(in) :: name
+    logical, intent(in) :: on
+    character(*), intent(in) :: reason
+    plan%n = plan%n + 1
+    plan%feature(plan%n)%name = name
+    plan%feature(plan%n)%on = on
+    plan%feature(plan%n)%reason = reason
+  end subroutine add
+
+  !> One line of the plan.
+  pure function plan_line(plan, k) result(line)
+    type(plan_t), intent(in) :: plan
+    integer, intent(in) :: k
+    character(:), allocatable :: line
+    line = '  '//plan%feature(k)%name//merge('on   ', 'off  ', plan%feature(k)%on)
+    line = line//plan%feature(k)%reason
+  end function plan_line
+
+end module run_plan

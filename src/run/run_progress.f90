@@ -1,0 +1,54 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> One line of progress on a terminal; nothing when the messages go elsewhere.
+module run_progress
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use base_kinds, only: wp, i8
+  use base_strings, only: to_text
+  use base_system, only: is_terminal
+  implicit none
+  private
+  integer, parameter :: steps_between_looks = 64
+
+  type, public :: progress_t
+    logical :: known = .false.
+    logical :: on = .false.
+    integer(i8) :: start = 0_i8, shown = 0_i8
+  end type progress_t
+
+  public :: show_progress, clear_progress
+
+contains
+
+  !> Time, step, percent and remaining seconds, at most four times a second.
+  subroutine show_progress(progress, quiet, cycle, steps, time)
+    type(progress_t), intent(inout) :: progress
+    logical, intent(in) :: quiet
+    integer, intent(in) :: cycle, steps
+    real(wp), intent(in) :: time
+    integer(i8) :: now, rate
+    real(wp) :: elapsed
+    if (.not. progress%known) then
+      progress%known = .true.
+      progress%on = .not. quiet .and. is_terminal(2)
+      call system_clock(progress%start)
+    end if
+    if (.not. progress%on .or. mod(cycle, steps_between_looks) /= 0) return
+    call system_clock(now, rate)
+    if (now - progress%shown < rate/4) return
+    progress%shown = now
+    elapsed = real(now - progress%start, wp)/real(rate, wp)
+    write (error_unit, '(a)', advance='no') achar(13)//'time '//to_text(time)//'  step '// &
+      to_text(cycle)//'  '//to_text(nint(100.0_wp*cycle/steps))//' %  '// &
+      to_text(nint(elapsed*(steps - cycle)/max(1, cycle)))//' s left     '
+    flush (error_unit)
+  end subroutine show_progress
+
+  !> Takes the line away.
+  subroutine clear_progress(progress)
+    type(progress_t), intent(in) :: progress
+    if (.not. progress%on .or. progress%shown == 0_i8) return
+    write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', 72)//achar(13)
+    flush (error_unit)
+  end subroutine clear_progress
+
+end module run_progress

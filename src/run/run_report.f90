@@ -1,0 +1,140 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The log, the echo deck and the closing summary.
+module run_report
+  use, intrinsic :: iso_fortran_env, only: output_unit
+  use base_kinds, only: wp, zero, i8
+  use base_status, only: status_t, fail, failed, status_text, status_file
+  use base_strings, only: to_text, join_path
+  use base_timers, only: phase_count, phase_name
+  use base_version, only: version
+  use deck_echo, only: write_echo
+  use deck_problems, only: add_warning
+  use run_data, only: run_t
+  use run_plan, only: plan_line
+  implicit none
+  private
+  public :: open_log, close_log, write_plan
+
+contains
+
+  !> Opens bipact.log with version, plan, notes; writes deck.echo.k.
+  subroutine open_log(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    integer :: unit
+    call open_text(join_path(run%folder, 'deck.echo.k'), unit, status)
+    if (failed(status)) return
+    call write_echo(run%deck, unit)
+    close (unit)
+    call open_text(join_path(run%folder, 'bipact.log'), run%log_unit, status)
+    if (failed(status)) return
+    write (run%log_unit, '(a)') 'bipact '//version
+    write (run%log_unit, '(a)') 'title: '//trim(run%model%title)
+    write (run%log_unit, '(a)') 'deck:  '//run%deck%file(1)%path
+    call write_plan(run, run%log_unit)
+    write (run%log_unit, '(a)') 'solver '//run%solver%info%engine//', order '// &
+      run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)//' bytes, '// &
+      to_text(run%solver%info%multiplications)//' block multiplications'
+  end subroutine open_log
+
+  subroutine open_text(path, unit, status)
+    character(*), intent(in) :: path
+    integer, intent(out) :: unit
+    type(status_t), intent(inout) :: status
+    character(200) :: reason
+    integer :: ios
+    open (newunit=unit, file=path, action='write', status='replace', iostat=ios, iomsg=reason)
+    if (ios /= 0) call fail(status, status_file, 'cannot write "'//path//'": '//trim(reason))
+  end subroutine open_text
+
+  !> The scene plan: size, scheme, features with their reasons.
+  subroutine write_plan(run, unit)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: unit
+    integer :: k
+    write (unit, '(a)') 'scene: '//to_text(run%model%nodes)//' nodes, '// &
+      to_text(run%model%elements)//' elements, '//to_text(size(run%model%part))// &
+        ' parts; scheme '// &
+      trim(run%model%controls%scheme)//', mass '//trim(run%model%controls%mass)
+    write (unit, '(a)') 'plan:'
+    do k = 1, run%plan%n
+      write (unit, '(a)') plan_line(run%plan, k)
+    end do
+  end subroutine write_plan
+
+  !> Notes, warnings and the closing summary into the log, the summary on the screen too.
+  subroutine close_log(run, ending)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(in) :: ending
+    integer :: k
+    call collect_warnings(run)
+    do k = 1, run%deck%problems%note_count
+      write (run%log_unit, '(a)') 'NOTE '//run%deck%problems%note(k)%text
+    end do
+    do k = 1, run%deck%problems%warning_count
+      write (run%log_unit, '(a)') 'WARNING '//run%deck%problems%warning(k)%text
+    end do
+    if (failed(ending)) write (run%log_unit, '(a)') 'FAILED '//status_text(ending)
+    call write_summary(run, run%log_unit)
+    call write_phases(run, run%log_unit)
+    close (run%log_unit)
+    if (run%quiet) return
+    call write_summary(run, output_unit)
+  end subroutine close_log
+
+  subroutine collect_warnings(run)
+    type(run_t), intent(inout) :: run
+    real(wp) :: degrees
+    if (run%ledger%first_growth >= 0) call add_warning(run%deck%problems, &
+      'energy-growth: the energy rose by '//to_text(run%ledger%largest_growth)// &
+      ' of the largest term; first seen at step '//to_text(run%ledger%first_growth))
+    degrees = run%rotation*180.0_wp/acos(-1.0_wp)
+    if (degrees > run%model%controls%rotation_warning) call add_warning(run%deck%problems, &
+      'rotation: element '//to_text(run%model%element_id(run%rotation_element))// &
+        ' turned by '// &
+      to_text(degrees)//' degrees; the kinematics are those of small displacements')
+  end subroutine collect_warnings
+
+  !> Steps, counts, ledger, contact certificate.
+  subroutine write_summary(run, unit)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: unit
+    real(wp) :: cpu
+    call cpu_time(cpu)
+    associate (l => run%ledger, c => run%contact)
+      write (unit, '(a)') 'steps '//to_text(run%state%cycle)//', time '// &
+        to_text(run%state%time)// &
+        ', CPU '//to_text(cpu)//' s'
+      write (unit, '(a)') 'factorisations '//to_text(run%factors)//', solves '// &
+        to_text(run%solves)//', contact searches '//to_text(c%searches)//', contact solves '// &
+        to_text(c%solves)//', sweeps '//to_text(c%sweeps)
+      write (unit, '(a)') 'energy: kinetic '//to_text(l%kinetic)//', internal '// &
+        to_text(l%internal)//', initial '//to_text(l%initial)//', external '// &
+          to_text(l%external)// &
+        ', motion '//to_text(l%motion)
+      write (unit, '(a)') '  lost: friction '//to_text(l%contact%friction)//', contact '// &
+        to_text(l%contact%normal)//', algorithmic '//to_text(l%algorithmic)//', damping '// &
+        to_text(l%damping)//'; unsolved '//to_text(l%contact%unsolved)
+      write (unit, '(a)') '  ledger residual '//to_text(l%residual)//' (worst '// &
+        to_text(l%worst_residual)//'), ratio '//to_text(l%ratio)
+      if (run%plan%contact) write (unit, '(a)') 'contact: worst error '// &
+        to_text(c%worst%error)// &
+        ', eta '//to_text(c%worst%eta)//', penetration/edge '//to_text(c%worst_penetration)// &
+        ', certificate '//trim(merge('met    ', 'not met', c%worst%met))
+    end associate
+    write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
+      to_text(run%deck%problems%warning_count)
+  end subroutine write_summary
+
+  !> Where the time went: seconds by the monotonic clock and number of entries.
+  subroutine write_phases(run, unit)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: unit
+    integer :: k
+    write (unit, '(a)') 'phase                           seconds        calls'
+    do k = 1, phase_count
+      write (unit, '(a,es12.4,i13)') phase_name(k), run%timers%seconds(k), run%timers%calls(k)
+    end do
+  end subroutine write_phases
+
+end module run_report

@@ -1,0 +1,127 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
+module run_setup
+  use assembly_system, only: make_system, effective_matrix
+  use base_kinds, only: zero
+  use base_status, only: status_t, failed, fail, status_deck
+  use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
+  use contact_setup, only: make_contact, contact_nodes, find_candidates
+  use deck_keywords, only: fill_table
+  use deck_parameter, only: override_t
+  use deck_problems, only: add_note
+  use deck_reader, only: read_deck
+  use base_strings, only: to_text
+  use linalg_registry, only: make_solver
+  use model_state, only: make_state
+  use run_data, only: run_t
+  use run_plan, only: make_plan
+  use scene_model, only: make_scene
+  use time_ledger, only: make_ledger
+  use time_registry, only: make_scheme
+  implicit none
+  private
+  public :: read_scene, set_up, factor_matrix
+
+contains
+
+  !> Reads and checks the deck, and plans the run. Nothing is written.
+  subroutine read_scene(path, overrides, run, status)
+    character(*), intent(in) :: path
+    type(override_t), intent(inout) :: overrides(:)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call run%timers%enter(phase_input)
+    call fill_table(run%deck%table)
+    call read_deck(path, overrides, run%deck, status)
+    if (failed(status)) return
+    call make_scene(run%deck, run%model, run%cone, run%solver_options, status)
+    if (failed(status)) return
+    call make_plan(run%model, run%plan, status)
+    call run%timers%enter(phase_other)
+  end subroutine read_scene
+
+  !> Makes everything that the plan needs. Nothing is written.
+  subroutine set_up(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    integer, allocatable :: massless(:)
+    call run%timers%enter(phase_assemble)
+    allocate (massless(0))
+    if (run%plan%contact) then
+      call make_contact(run%model, run%cone, run%contact)
+      if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
+    end if
+    call make_system(run%model, massless, run%system, status)
+    if (failed(status)) return
+    call make_scheme(run%model%controls, run%scheme, status)
+    if (failed(status)) return
+    if (run%plan%contact) run%contact%keeps_before = run%scheme%weight_before > zero
+    call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
+    call run%scheme%start(run%model, run%system, run%state, status)
+    call make_ledger(run%model, run%system, run%state, run%ledger)
+    call make_solver(run%solver_options, run%solver, status)
+    allocate (run%b(2, run%system%n), run%x(2, run%system%n))
+    run%x = zero
+    if (run%plan%loads) then
+      allocate (run%load_0(2, run%system%n), run%load_1(2, run%system%n))
+      run%load_0 = zero
+    end if
+    call first_candidates(run, status)
+    call factor_matrix(run, .true., status)
+    call run%timers%enter(phase_other)
+  end subroutine set_up
+
+  subroutine first_candidates(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    logical :: new_block
+    if (.not. run%plan%contact .or. failed(status)) return
+    call run%timers%enter(phase_search)
+    call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
+                         run%scheme%h, 0, run%scheme%h, new_block, status)
+  end subroutine first_candidates
+
+  !> Factor of the effective matrix, with the contact block last and its flexibility; again is
+  !> true
+  !> when the block has changed and the order must be found anew.
+  subroutine factor_matrix(run, again, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    integer :: m
+    if (failed(status)) return
+    call run%timers%enter(phase_factor)
+    call effective_matrix(run%system, run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k, &
+      run%matrix)
+    if (.not. run%plan%contact) allocate (run%contact%block(0), run%contact%pair(0))
+    m = size(run%contact%block)
+    if (again) then
+      call run%solver%analyse(run%system%graph, run%contact%block, status)
+      run%analyses = run%analyses + 1
+      if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
+      allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
+      if (2*m > run%solver_options%block_limit) call add_note(run%deck%problems, &
+        'the contact '// &
+        'block has '//to_text(2*m)//' dofs, more than NLAST; it is kept dense all the same')
+    end if
+    call run%solver%factor(run%system%graph, run%matrix, status)
+    run%factors = run%factors + 1
+    if (m > 0) call block_flexibility(run)
+  end subroutine factor_matrix
+
+  !> S^-1 of the block; fixed dofs do not move, whatever the force.
+  subroutine block_flexibility(run)
+    type(run_t), intent(inout) :: run
+    integer :: k, row
+    call run%solver%flexibility(run%contact%flexibility)
+    do k = 1, size(run%system%fixed_list, 2)
+      row = run%contact%block_row(run%system%fixed_list(2, k))
+      if (row == 0) cycle
+      row = 2*row - 2 + run%system%fixed_list(1, k)
+      run%contact%flexibility(row, :) = zero
+      run%contact%flexibility(:, row) = zero
+    end do
+    run%contact%w_is_current = .false.
+  end subroutine block_flexibility
+
+end module run_setup

@@ -1,0 +1,104 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a time scheme is: a list of stages. A stage gives the effective matrix A = cM M + cC C +
+!> cK K,
+!> the right-hand side of the free motion, and the update; contact is posed on the motion x of
+!> the
+!> stage by the one contact routine, which is never told which scheme calls it.
+module time_base
+  use assembly_system, only: system_t, multiply_mass
+  use base_kinds, only: wp, zero, one
+  use base_status, only: status_t
+  use model_data, only: model_t
+  use model_state, only: state_t
+  implicit none
+  private
+  !> Contact on positions: x = U1 - U0, u_n = gap at the end, u_t = slip of the step, r = force.
+  integer, parameter, public :: level_position = 1
+
+  type, public :: stage_t
+    real(wp) :: c_m = zero   !< [1/T2]
+    real(wp) :: c_c = zero   !< [1/T]
+    real(wp) :: c_k = zero
+    integer :: level = level_position
+  end type stage_t
+
+  type, abstract, public :: scheme_t
+    character(10) :: name = ''
+    real(wp) :: h = zero                     !< step [T]
+    type(stage_t), allocatable :: stage(:)
+    logical :: has_acceleration = .false.
+    !> Over the step the bodies feel the reactions weight_before r0 + weight_now r1.
+    real(wp) :: weight_before = zero
+    real(wp) :: weight_now = one
+    !> Weights of the loads P0, P1 in the right-hand side, and in the work that the ledger
+    !> counts.
+    real(wp) :: load_weight(2) = [zero, one]
+    real(wp) :: load_work_weight(2) = [zero, one]
+    !> True when the scheme has damping of its own to be accounted for.
+    logical :: dissipates = .false.
+  contains
+    procedure(set_step_i), deferred :: set_step
+    procedure(start_i), deferred :: start
+    procedure(right_side_i), deferred :: right_side
+    procedure(update_i), deferred :: update
+    procedure(dissipation_i), deferred :: dissipation
+  end type scheme_t
+
+  abstract interface
+    !> Coefficients of every stage for a step of length h.
+    pure subroutine set_step_i(this, h)
+      import :: scheme_t, wp
+      class(scheme_t), intent(inout) :: this
+      real(wp), intent(in) :: h
+    end subroutine set_step_i
+    !> What the state needs before the first step (an acceleration, say).
+    subroutine start_i(this, model, system, state, status)
+      import :: scheme_t, model_t, system_t, state_t, status_t
+      class(scheme_t), intent(inout) :: this
+      type(model_t), intent(in) :: model
+      type(system_t), intent(in) :: system
+      type(state_t), intent(inout) :: state
+      type(status_t), intent(inout) :: status
+    end subroutine start_i
+    !> b of A x = b [F]; on entry b holds the loads as the stage weighs them.
+    subroutine right_side_i(this, stage, system, state, b)
+      import :: scheme_t, system_t, state_t, wp
+      class(scheme_t), intent(inout) :: this
+      integer, intent(in) :: stage
+      type(system_t), intent(in) :: system
+      type(state_t), intent(in) :: state
+      real(wp), intent(inout) :: b(:, :)
+    end subroutine right_side_i
+    !> State at the end of a stage from its motion x, which becomes state%du.
+    subroutine update_i(this, stage, x, state)
+      import :: scheme_t, state_t, wp
+      class(scheme_t), intent(inout) :: this
+      integer, intent(in) :: stage
+      real(wp), intent(in) :: x(:, :)
+      type(state_t), intent(inout) :: state
+    end subroutine update_i
+    !> Energy that the scheme itself takes out in the step just done [F L]; only called when
+    !> `dissipates`.
+    real(wp) function dissipation_i(this, system, state)
+      import :: scheme_t, system_t, state_t, wp
+      class(scheme_t), intent(inout) :: this
+      type(system_t), intent(in) :: system
+      type(state_t), intent(in) :: state
+    end function dissipation_i
+  end interface
+
+  public :: mass_product
+
+contains
+
+  !> x.M y [F L for velocities].
+  real(wp) function mass_product(system, x, y)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: x(:, :), y(:, :)
+    real(wp) :: z(2, system%n)
+    z = zero
+    call multiply_mass(system, one, y, z)
+    mass_product = sum(x*z)
+  end function mass_product
+
+end module time_base

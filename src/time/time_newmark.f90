@@ -1,0 +1,137 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Newmark's method (1959):
+!>   V1 = V0 + h [(1 - gamma) A0 + gamma A1],  U1 = U0 + h V0 + h^2 [(1/2 - beta) A0 + beta A1],
+!> contact force at the end of the step, r1. On impact it gains energy without bound: it is here
+!> to
+!> be compared with.
+!> One stage: [M/(beta h^2) + K] x = M D/(beta h^2) - K U0 + P1 + R1, D = h V0 + h^2 (1/2 -
+!> beta) A0.
+module time_newmark
+  use assembly_forces, only: subtract_internal_force, strain_product, add_loads
+  use assembly_system, only: system_t, multiply_mass, effective_matrix, clear_fixed
+  use base_kinds, only: wp, zero, one, half
+  use base_status, only: status_t, fail, failed, status_numerical
+  use linalg_graph, only: block_matrix_t
+  use linalg_registry, only: make_solver
+  use linalg_solver, only: solver_t, solver_options_t, solve_whole
+  use model_data, only: model_t
+  use model_state, only: state_t
+  use time_base, only: scheme_t, stage_t, mass_product
+  implicit none
+  private
+
+  type, extends(scheme_t), public :: newmark_t
+    real(wp) :: gamma = half
+    real(wp) :: beta = 0.25_wp
+    real(wp), allocatable :: d(:, :)        !< predictor D [L]
+    real(wp), allocatable :: a_before(:, :) !< A0, only where the ledger needs it
+  contains
+    procedure :: set_step => newmark_set_step
+    procedure :: start => newmark_start
+    procedure :: right_side => newmark_right_side
+    procedure :: update => newmark_update
+    procedure :: dissipation => newmark_dissipation
+  end type newmark_t
+
+  !> A mass pivot below this share of its diagonal is round-off of a singular mass.
+  real(wp), parameter :: null_pivot = 1.0e-12_wp
+
+contains
+
+  pure subroutine newmark_set_step(this, h)
+    class(newmark_t), intent(inout) :: this
+    real(wp), intent(in) :: h
+    this%name = 'NEWMARK'
+    this%h = h
+    this%stage = [stage_t(c_m=one/(this%beta*h**2), c_k=one)]
+    this%has_acceleration = .true.
+    this%weight_before = one - this%gamma
+    this%weight_now = this%gamma
+    this%load_work_weight = [one - this%gamma, this%gamma]
+    this%dissipates = this%gamma > half .or. abs(this%beta - half*this%gamma) > zero
+  end subroutine newmark_set_step
+
+  !> A0 from M A0 = P0 - K U0. Where the mass is singular the acceleration is zero, if the right
+  !> side
+  !> allows it; else the start fails.
+  subroutine newmark_start(this, model, system, state, status)
+    class(newmark_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(inout) :: state
+    type(status_t), intent(inout) :: status
+    class(solver_t), allocatable :: solver
+    type(block_matrix_t) :: matrix
+    real(wp), allocatable :: f(:, :)
+    real(wp) :: size_f
+    allocate (this%d(2, system%n))
+    if (this%dissipates) allocate (this%a_before(2, system%n))
+    allocate (f(2, system%n))
+    f = zero
+    call add_loads(model, system, zero, one, f)
+    call subtract_internal_force(system, one, state%u, f)
+    call clear_fixed(system, f)
+    size_f = maxval(abs(f))
+    if (.not. size_f > zero) return
+    call make_solver(solver_options_t(engine='LDLT', null_pivot=null_pivot), solver, status)
+    call effective_matrix(system, one, zero, matrix)
+    call solver%analyse(system%graph, [integer ::], status)
+    call solver%factor(system%graph, matrix, status)
+    if (failed(status)) return
+    call solve_whole(solver, f, state%a)
+    call multiply_mass(system, -one, state%a, f)
+    call clear_fixed(system, f)
+    if (maxval(abs(f)) > 1.0e-9_wp*size_f) call fail(status, status_numerical, &
+      'NEWMARK cannot '// &
+      'start: the mass '//trim(model%controls%mass)// &
+        ' is singular and the loads at t = 0 act '// &
+      'where it is zero', hint='choose another mass, or SCHEME THETA')
+  end subroutine newmark_start
+
+  subroutine newmark_right_side(this, stage, system, state, b)
+    class(newmark_t), intent(inout) :: this
+    integer, intent(in) :: stage
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp), intent(inout) :: b(:, :)
+    this%d = this%h*state%v + (this%h**2*(half - this%beta))*state%a
+    call multiply_mass(system, this%stage(1)%c_m, this%d, b)
+    call subtract_internal_force(system, one, state%u, b)
+  end subroutine newmark_right_side
+
+  !> U1 = U0 + x, A1 = (x - D)/(beta h^2), V1 = V0 + h [(1 - gamma) A0 + gamma A1].
+  subroutine newmark_update(this, stage, x, state)
+    class(newmark_t), intent(inout) :: this
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: x(:, :)
+    type(state_t), intent(inout) :: state
+    real(wp) :: a1
+    integer :: i, k
+    if (this%dissipates) this%a_before = state%a
+    do i = 1, size(x, 2)
+      do k = 1, 2
+        a1 = (x(k, i) - this%d(k, i))*this%stage(1)%c_m
+        state%v(k, i) = state%v(k, i) + this%h*((one - this%gamma)*state%a(k, i) &
+          + this%gamma*a1)
+        state%a(k, i) = a1
+        state%u(k, i) = state%u(k, i) + x(k, i)
+      end do
+    end do
+  end subroutine newmark_update
+
+  !> (gamma - 1/2) [dU K dU + c h^2 dA M dA] + c h^2 d(1/2 A M A), c = beta - gamma/2.
+  real(wp) function newmark_dissipation(this, system, state)
+    class(newmark_t), intent(inout) :: this
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp) :: c
+    c = (this%beta - half*this%gamma)*this%h**2
+    newmark_dissipation = half*c*(mass_product(system, state%a, state%a) &
+                                  - mass_product(system, this%a_before, this%a_before))
+    this%a_before = state%a - this%a_before
+    newmark_dissipation = newmark_dissipation + (this%gamma - half)*( &
+                          strain_product(system, state%du) &
+                          + c*mass_product(system, this%a_before, this%a_before))
+  end function newmark_dissipation
+
+end module time_newmark

@@ -1,0 +1,33 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Time schemes by name. To add one: its file, its `use`, its case.
+module time_registry
+  use base_status, only: status_t, fail, status_deck
+  use model_data, only: controls_t
+  use time_base, only: scheme_t
+  use time_newmark, only: newmark_t
+  use time_theta, only: theta_t
+  implicit none
+  private
+  public :: make_scheme
+
+contains
+
+  !> The scheme that the deck asks for, ready for steps of length dt.
+  subroutine make_scheme(controls, scheme, status)
+    type(controls_t), intent(in) :: controls
+    class(scheme_t), allocatable, intent(out) :: scheme
+    type(status_t), intent(inout) :: status
+    select case (trim(controls%scheme))
+    case ('THETA')
+      allocate (scheme, source=theta_t(theta=controls%theta, xi=controls%xi))
+    case ('NEWMARK')
+      allocate (scheme, source=newmark_t(gamma=controls%gamma, beta=controls%beta))
+    case default
+      call fail(status, status_deck, 'time scheme "'//trim(controls%scheme)// &
+        '" is not available')
+      return
+    end select
+    call scheme%set_step(controls%dt)
+  end subroutine make_scheme
+
+end module time_registry

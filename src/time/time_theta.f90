@@ -1,0 +1,94 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The first-order theta-method without accelerations (Jean 1999):
+!>   U1 - U0 = h [(1 - theta) V0 + theta V1]
+!> M (V1 - V0) = h [(1 - xi) F0 + xi F1] + h R1,  F = P - K U,  the reactions R fully implicit.
+!> One stage: [M/(theta h^2) + xi K] x = M V0/(theta h) + (1 - xi) P0 + xi P1 - K U0 + R1.
+module time_theta
+  use assembly_forces, only: subtract_internal_force, strain_product
+  use assembly_system, only: system_t, multiply_mass
+  use base_kinds, only: wp, zero, one, half
+  use base_status, only: status_t
+  use model_data, only: model_t
+  use model_state, only: state_t
+  use time_base, only: scheme_t, stage_t, mass_product
+  implicit none
+  private
+
+  type, extends(scheme_t), public :: theta_t
+    real(wp) :: theta = half
+    real(wp) :: xi = half
+    real(wp), allocatable :: dv(:, :)   !< velocity change of the step, only where it is needed
+  contains
+    procedure :: set_step => theta_set_step
+    procedure :: start => theta_start
+    procedure :: right_side => theta_right_side
+    procedure :: update => theta_update
+    procedure :: dissipation => theta_dissipation
+  end type theta_t
+
+contains
+
+  pure subroutine theta_set_step(this, h)
+    class(theta_t), intent(inout) :: this
+    real(wp), intent(in) :: h
+    this%name = 'THETA'
+    this%h = h
+    this%stage = [stage_t(c_m=one/(this%theta*h**2), c_k=this%xi)]
+    this%load_weight = [one - this%xi, this%xi]
+    this%load_work_weight = this%load_weight
+    this%dissipates = this%theta > half .or. this%xi > half
+  end subroutine theta_set_step
+
+  !> The method needs nothing but displacements and velocities.
+  subroutine theta_start(this, model, system, state, status)
+    class(theta_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(inout) :: state
+    type(status_t), intent(inout) :: status
+    if (this%dissipates) allocate (this%dv(2, system%n))
+    if (this%dissipates) this%dv = zero
+  end subroutine theta_start
+
+  subroutine theta_right_side(this, stage, system, state, b)
+    class(theta_t), intent(inout) :: this
+    integer, intent(in) :: stage
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp), intent(inout) :: b(:, :)
+    call multiply_mass(system, one/(this%theta*this%h), state%v, b)
+    call subtract_internal_force(system, one, state%u, b)
+  end subroutine theta_right_side
+
+  !> U1 = U0 + x, V1 = (1 - 1/theta) V0 + x/(theta h).
+  subroutine theta_update(this, stage, x, state)
+    class(theta_t), intent(inout) :: this
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: x(:, :)
+    type(state_t), intent(inout) :: state
+    real(wp) :: keep, gain
+    integer :: i
+    keep = one - one/this%theta
+    gain = one/(this%theta*this%h)
+    if (this%dissipates) this%dv = gain*x + (keep - one)*state%v
+    do i = 1, size(x, 2)
+      state%u(1, i) = state%u(1, i) + x(1, i)
+      state%u(2, i) = state%u(2, i) + x(2, i)
+      state%v(1, i) = keep*state%v(1, i) + gain*x(1, i)
+      state%v(2, i) = keep*state%v(2, i) + gain*x(2, i)
+    end do
+  end subroutine theta_update
+
+  !> (theta - 1/2) |dV|_M^2 + (xi - 1/2) |dU|_K^2.
+  real(wp) function theta_dissipation(this, system, state)
+    class(theta_t), intent(inout) :: this
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    theta_dissipation = zero
+    if (this%theta > half) theta_dissipation = (this%theta - half)*mass_product(system, &
+      this%dv, this%dv)
+    if (this%xi > half) theta_dissipation = theta_dissipation &
+                                            + (this%xi - half)*strain_product(system, state%du)
+  end function theta_dissipation
+
+end module time_theta
