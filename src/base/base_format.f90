@@ -51,7 +51,7 @@ contains
       write (text, '(es24.16e3)') x
       return
     else if (.not. (a > 0.0_wp)) then
-      write (text, '(es24.16e3)') a
+      text = ' 0.0000000000000000E+000'
       return
     end if
     e = floor(log10(a))

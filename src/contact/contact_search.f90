@@ -21,7 +21,7 @@ contains
   !> displacement of a side since the search.
   pure logical function pair_is_asleep(pair, u)
     type(pair_t), intent(in) :: pair
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b
     pair_is_asleep = pair%safe_distance >= huge(one)
     if (pair_is_asleep .or. pair%safe_distance < zero) return
@@ -33,19 +33,19 @@ contains
   !> Mean motion of a side since the search, and the largest departure from it.
   pure subroutine side_motion(node, reference, u, mean, spread)
     integer, intent(in) :: node(:)
-    real(wp), intent(in) :: reference(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: reference(:, :), u(:, :)
     real(wp), intent(out) :: mean(2), spread
+    real(wp) :: d(2)
     integer :: k
     mean = zero
     do k = 1, size(node)
-      mean(1) = mean(1) + (u(1, node(k)) - reference(1, k))
-      mean(2) = mean(2) + (u(2, node(k)) - reference(2, k))
+      mean = mean + (u(:, node(k)) - reference(:, k))
     end do
     mean = mean/real(size(node), wp)
     spread = zero
     do k = 1, size(node)
-      spread = max(spread, (u(1, node(k)) - reference(1, k) - mean(1))**2 &
-                   + (u(2, node(k)) - reference(2, k) - mean(2))**2)
+      d = u(:, node(k)) - reference(:, k) - mean
+      spread = max(spread, d(1)**2 + d(2)**2)
     end do
     spread = sqrt(spread)
   end subroutine side_motion

@@ -53,7 +53,8 @@ contains
   subroutine find_candidates(model, contact, u, du, v, h, cycle, t1, new_block, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), du(:, :), v(:, :), h, t1
+    real(wp), intent(in), contiguous :: u(:, :), du(:, :), v(:, :)
+    real(wp), intent(in) :: h, t1
     integer, intent(in) :: cycle
     logical, intent(out) :: new_block
     type(status_t), intent(inout) :: status

@@ -110,17 +110,14 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: x(2, n)
     real(wp), intent(inout) :: y(2, n)
-    real(wp) :: s1, s2
+    real(wp) :: row(2)
     integer :: i, k
     do i = 1, n
-      s1 = zero
-      s2 = zero
+      row = zero
       do k = first(i), first(i + 1) - 1
-        s1 = s1 + s(k)*x(1, column(k))
-        s2 = s2 + s(k)*x(2, column(k))
+        row = row + s(k)*x(:, column(k))
       end do
-      y(1, i) = y(1, i) + factor*s1
-      y(2, i) = y(2, i) + factor*s2
+      y(:, i) = y(:, i) + factor*row
     end do
   end subroutine scalar_product
 

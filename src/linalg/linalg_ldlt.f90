@@ -240,8 +240,7 @@ contains
       y2 = y(2, j)
       do p = first(j), first(j + 1) - 1
         i = row(p)
-        y(1, i) = y(1, i) - (l(1, 1, p)*y1 + l(1, 2, p)*y2)
-        y(2, i) = y(2, i) - (l(2, 1, p)*y1 + l(2, 2, p)*y2)
+        y(:, i) = y(:, i) - (l(:, 1, p)*y1 + l(:, 2, p)*y2)
       end do
       y(1, j) = d(1, j)*y1 + d(2, j)*y2
       y(2, j) = d(2, j)*y1 + d(3, j)*y2

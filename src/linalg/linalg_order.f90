@@ -50,7 +50,7 @@ contains
     do k = 1, 3
       if (wanted /= 'AUTO' .and. wanted /= names(k)) cycle
       if (wanted == 'AUTO' .and. k == 3 .and. flops < metis_threshold) exit
-      call one_order(graph, leading, trim(names(k)), trial, status)
+      call one_order(graph, leading, last, trim(names(k)), trial, status)
       if (failed(status)) return
       trial = [trial, last]
       cost = count_factor(graph, trial, size(leading))
@@ -74,15 +74,15 @@ contains
     leading = pack([(k, k=1, n)], is_leading)
   end subroutine leading_nodes
 
-  subroutine one_order(graph, nodes, name, order, status)
+  subroutine one_order(graph, nodes, last, name, order, status)
     type(graph_t), intent(in) :: graph
-    integer, intent(in) :: nodes(:)
+    integer, intent(in) :: nodes(:), last(:)
     character(*), intent(in) :: name
     integer, allocatable, intent(out) :: order(:)
     type(status_t), intent(inout) :: status
     select case (name)
     case ('RCM')
-      call reverse_cuthill_mckee(graph, nodes, order)
+      call reverse_cuthill_mckee(graph, nodes, last, order)
     case ('METIS')
       call metis_order(graph, nodes, order, status)
     case default
@@ -90,15 +90,15 @@ contains
     end select
   end subroutine one_order
 
-  !> Reverse Cuthill-McKee (1969; George 1971) on the subgraph of `nodes`, from a node of least
-  !> degree.
-  pure subroutine reverse_cuthill_mckee(graph, nodes, order)
+  !> Reverse Cuthill-McKee (1969; George 1971) on the subgraph of `nodes`: first outwards from the
+  !> nodes that come last, so that they gather no fill from afar, then from nodes of least degree.
+  pure subroutine reverse_cuthill_mckee(graph, nodes, last, order)
     type(graph_t), intent(in) :: graph
-    integer, intent(in) :: nodes(:)
+    integer, intent(in) :: nodes(:), last(:)
     integer, allocatable, intent(out) :: order(:)
     integer, allocatable :: by_degree(:), degree(:)
     logical, allocatable :: free(:)
-    integer :: n, head, tail, start, k, i, added
+    integer :: n, head, tail, start, k
     n = size(nodes)
     allocate (order(n), by_degree(n), free(graph%n))
     free = .false.
@@ -107,6 +107,9 @@ contains
     call sort_order(degree, by_degree)
     head = 0
     tail = 0
+    do k = 1, size(last)
+      call visit_neighbours(graph, last(k), free, order, tail)
+    end do
     start = 1
     do while (tail < n)
       if (head == tail) then
@@ -118,18 +121,27 @@ contains
         free(order(tail)) = .false.
       end if
       head = head + 1
-      added = tail
-      do k = graph%first(order(head)), graph%first(order(head) + 1) - 1
-        i = graph%column(k)
-        if (.not. free(i)) cycle
-        free(i) = .false.
-        tail = tail + 1
-        order(tail) = i
-      end do
-      call sort_by_degree(graph, order(added + 1:tail))
+      call visit_neighbours(graph, order(head), free, order, tail)
     end do
     order = order(n:1:-1)
   end subroutine reverse_cuthill_mckee
+
+  !> Appends the free neighbours of a node to the order, those of least degree first.
+  pure subroutine visit_neighbours(graph, node, free, order, tail)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: node
+    logical, intent(inout) :: free(:)
+    integer, intent(inout) :: order(:), tail
+    integer :: k, first
+    first = tail + 1
+    do k = graph%first(node), graph%first(node + 1) - 1
+      if (.not. free(graph%column(k))) cycle
+      free(graph%column(k)) = .false.
+      tail = tail + 1
+      order(tail) = graph%column(k)
+    end do
+    call sort_by_degree(graph, order(first:tail))
+  end subroutine visit_neighbours
 
   pure subroutine sort_by_degree(graph, nodes)
     type(graph_t), intent(in) :: graph

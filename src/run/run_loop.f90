@@ -71,7 +71,7 @@ contains
       run%solves = run%solves + 1
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
-      run%state%du = run%x
+      call swap(run%state%du, run%x)
     end do
     run%state%cycle = run%state%cycle + 1
     run%state%time = t1
@@ -81,6 +81,22 @@ contains
     call add_place(status, 'step '//to_text(run%state%cycle)//', time '// &
       to_text(run%state%time))
   end subroutine advance
+
+  !> The step and its time, for messages.
+  function moment(run) result(text)
+    type(run_t), intent(in) :: run
+    character(:), allocatable :: text
+    text = 'step '//to_text(run%state%cycle)//', time '//to_text(run%state%time)
+  end function moment
+
+  !> Exchanges two arrays without copying.
+  subroutine swap(a, b)
+    real(wp), allocatable, intent(inout) :: a(:, :), b(:, :)
+    real(wp), allocatable :: c(:, :)
+    call move_alloc(a, c)
+    call move_alloc(b, a)
+    call move_alloc(c, b)
+  end subroutine swap
 
   !> Candidates for the step; a larger block means another elimination order.
   subroutine prepare_contact(run, t1, status)
@@ -134,7 +150,13 @@ contains
   subroutine check_finite(run, status)
     type(run_t), intent(in) :: run
     type(status_t), intent(inout) :: status
-    if (abs(sum(run%x)) <= huge(one)) return
+    real(wp) :: total(2)
+    integer :: i
+    total = zero
+    do i = 1, run%system%n
+      total = total + run%state%du(:, i)
+    end do
+    if (abs(total(1) + total(2)) <= huge(one)) return
     call fail(status, status_numerical, &
       'the displacements are no numbers any more (NaN or infinite)', &
               hint='check units, densities and the time step')
@@ -201,7 +223,7 @@ contains
       if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
       if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
         'energy growth of '//to_text(run%ledger%largest_growth)//' of the largest term', &
-        place='step '//to_text(run%state%cycle), hint='choose SCHEME THETA, or ACTION WARN')
+        place=moment(run), hint='choose SCHEME THETA, or ACTION WARN')
     end if
     if (.not. abs(run%ledger%total) <= huge(one)) call fail(status, status_numerical, &
       'the energy is no number any more (NaN or infinite)')

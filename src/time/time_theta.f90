@@ -67,17 +67,22 @@ contains
     real(wp), intent(in) :: x(:, :)
     type(state_t), intent(inout) :: state
     real(wp) :: keep, gain
-    integer :: i
     keep = one - one/this%theta
     gain = one/(this%theta*this%h)
     if (this%dissipates) this%dv = gain*x + (keep - one)*state%v
-    do i = 1, size(x, 2)
-      state%u(1, i) = state%u(1, i) + x(1, i)
-      state%u(2, i) = state%u(2, i) + x(2, i)
-      state%v(1, i) = keep*state%v(1, i) + gain*x(1, i)
-      state%v(2, i) = keep*state%v(2, i) + gain*x(2, i)
-    end do
+    call update_kernel(size(x), keep, gain, x, state%u, state%v)
   end subroutine theta_update
+
+  pure subroutine update_kernel(n, keep, gain, x, u, v)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: keep, gain, x(n)
+    real(wp), intent(inout) :: u(n), v(n)
+    integer :: i
+    do i = 1, n
+      u(i) = u(i) + x(i)
+      v(i) = keep*v(i) + gain*x(i)
+    end do
+  end subroutine update_kernel
 
   !> (theta - 1/2) |dV|_M^2 + (xi - 1/2) |dU|_K^2.
   real(wp) function theta_dissipation(this, system, state)
