@@ -78,8 +78,7 @@ contains
     run%state%h_last = run%scheme%h
     call check_finite(run, status)
     call account(run, acting, status)
-    call add_place(status, 'step '//to_text(run%state%cycle)//', time '// &
-      to_text(run%state%time))
+    if (failed(status)) call add_place(status, moment(run))
   end subroutine advance
 
   !> The step and its time, for messages.
@@ -107,8 +106,7 @@ contains
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
                          run%scheme%h, run%state%cycle, t1, new_block, status)
-    call add_place(status, 'step '//to_text(run%state%cycle)//', time '// &
-      to_text(run%state%time))
+    if (failed(status)) call add_place(status, moment(run))
     if (new_block) call factor_matrix(run, .true., status)
   end subroutine prepare_contact
 
