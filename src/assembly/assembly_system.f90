@@ -29,7 +29,7 @@ module assembly_system
     integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
   end type system_t
 
-  public :: make_system, effective_matrix, multiply_mass, clear_fixed
+  public :: make_system, effective_matrix, multiply_mass, clear_fixed, stiffness_ratio
 
 contains
 
@@ -207,6 +207,20 @@ contains
       end do
     end do
   end subroutine add_stiffness
+
+  !> Largest diagonal of cK K over the largest of cM M.
+  pure real(wp) function stiffness_ratio(system, c_m, c_k)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: c_m, c_k
+    integer :: e, i
+    stiffness_ratio = zero
+    do e = 1, size(system%corner, 2)
+      do i = 1, 6
+        stiffness_ratio = max(stiffness_ratio, system%stiffness(i, i, e))
+      end do
+    end do
+    stiffness_ratio = stiffness_ratio*c_k/(c_m*maxval(system%lumped))
+  end function stiffness_ratio
 
   !> y = y + factor * M x.
   subroutine multiply_mass(system, factor, x, y)

@@ -12,23 +12,29 @@ module contact_search
   use model_data, only: model_t
   implicit none
   private
-  public :: pair_is_asleep, search_pair
+  public :: test_sleep, search_pair
 
 contains
 
-  !> True while no node off the list can have touched: |c_A - c_B| + max|u - u_ref - c_A| +
-  !> max|u - u_ref - c_B| is below the smallest distance found (triangle inequality); c = mean
-  !> displacement of a side since the search.
-  pure logical function pair_is_asleep(pair, u)
-    type(pair_t), intent(in) :: pair
+  !> True while no node off the list can touch before the end of the coming step:
+  !> |c_A - c_B| + max|u - u_ref - c_A| + max|u - u_ref - c_B|, c = mean displacement of a side
+  !> since
+  !> the search, bounds the relative motion (triangle inequality); it must stay below the
+  !> smallest
+  !> distance found, with twice the motion of the last step kept for the coming one.
+  subroutine test_sleep(pair, u, asleep)
+    type(pair_t), intent(inout) :: pair
     real(wp), intent(in), contiguous :: u(:, :)
-    real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b
-    pair_is_asleep = pair%safe_distance >= huge(one)
-    if (pair_is_asleep .or. pair%safe_distance < zero) return
+    logical, intent(out) :: asleep
+    real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b, moved
+    asleep = pair%safe_distance >= huge(one)
+    if (asleep .or. pair%safe_distance < zero) return
     call side_motion(pair%contactor%node, pair%contactor_reference, u, mean_a, spread_a)
     call side_motion(pair%obstacle%node, pair%obstacle_reference, u, mean_b, spread_b)
-    pair_is_asleep = sqrt(sum((mean_a - mean_b)**2)) + spread_a + spread_b < pair%safe_distance
-  end function pair_is_asleep
+    moved = sqrt(sum((mean_a - mean_b)**2)) + spread_a + spread_b
+    asleep = moved + 2.0_wp*max(zero, moved - pair%moved) < pair%safe_distance
+    pair%moved = moved
+  end subroutine test_sleep
 
   !> Mean motion of a side since the search, and the largest departure from it.
   pure subroutine side_motion(node, reference, u, mean, spread)
@@ -71,6 +77,7 @@ contains
       call obstacle_box(model, pair, u, low, high)
       call near_edges(model, pair, u, reach, near)
       pair%safe_distance = huge(one)
+      pair%moved = zero
       do k = 1, size(pair%contactor%node)
         place = model%x(:, pair%contactor%node(k)) + u(:, pair%contactor%node(k))
         distance = sqrt(sum(max(low - place, place - high, zero)**2))
@@ -162,11 +169,12 @@ contains
     type(candidate_t), intent(inout) :: c
     real(wp), intent(out) :: distance
     type(status_t), intent(inout) :: status
-    real(wp) :: gap, xi, beyond, d
+    real(wp) :: gap, xi, beyond, d, depth
     integer :: edge, node
     logical :: on_edge
     node = pair%contactor%node(k)
     distance = huge(one)
+    depth = zero
     do edge = 1, size(near)
       if (.not. near(edge)) cycle
       if (.not. facing(pair%contactor, k, pair%obstacle%normal(:, edge))) cycle
@@ -180,19 +188,21 @@ contains
                                                              cycle, status)
         if (failed(status)) return
         if (gap < -contact%penetration_tolerance*length) then
-          if (on_edge .and. inside(model, pair%obstacle, u, node)) then
-            if (.not. listed(contact, node)) call penetrated(model, node, gap, cycle, status)
-          else
-            cycle
-          end if
+          if (.not. on_edge) cycle
+          if (.not. inside(model, pair%obstacle, u, node)) cycle
         end if
         d = sqrt(gap**2 + (beyond*length)**2)
         if (on_edge) d = abs(gap)*(one - 1.0e-9_wp)
       end associate
       if (d >= distance) cycle
       distance = d
+      depth = -gap
       c%edge = edge
     end do
+    if (c%edge > 0 .and. .not. listed(contact, node)) then
+      if (depth > contact%penetration_tolerance*pair%obstacle%length(c%edge)) &
+        call penetrated(model, node, depth, cycle, status)
+    end if
     if (distance > reach .and. .not. all(near)) distance = reach*(one + epsilon(one))
   end subroutine nearest_edge
 
@@ -206,18 +216,18 @@ contains
     end do
   end function listed
 
-  subroutine penetrated(model, node, gap, cycle, status)
+  subroutine penetrated(model, node, depth, cycle, status)
     type(model_t), intent(in) :: model
     integer, intent(in) :: node, cycle
-    real(wp), intent(in) :: gap
+    real(wp), intent(in) :: depth
     type(status_t), intent(inout) :: status
     if (cycle == 0) then
       call fail(status, status_deck, 'initial penetration: node '// &
         to_text(model%node_id(node))// &
-                ' is '//to_text(-gap)//' deep in the other body', hint='open the gap')
+                ' is '//to_text(depth)//' deep in the other body', hint='open the gap')
     else
       call fail(status, status_numerical, 'node '//to_text(model%node_id(node))//' is '// &
-        to_text(-gap)// &
+        to_text(depth)// &
                 ' deep in the other body: it crossed its surface unseen within the step', &
                 hint='refine the step')
     end if

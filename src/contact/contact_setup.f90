@@ -5,7 +5,7 @@ module contact_setup
   use base_status, only: status_t, failed
   use cone_types, only: cone_options_t
   use contact_condense, only: block_outgrown, make_block, track_candidates
-  use contact_search, only: pair_is_asleep, search_pair
+  use contact_search, only: test_sleep, search_pair
   use contact_surface, only: make_surface, surface_t
   use contact_types, only: contact_t
   use model_data, only: model_t
@@ -58,12 +58,13 @@ contains
     integer, intent(in) :: cycle
     logical, intent(out) :: new_block
     type(status_t), intent(inout) :: status
-    logical :: awake
+    logical :: awake, asleep
     integer :: p
     new_block = .false.
     awake = .false.
     do p = 1, size(contact%pair)
-      if (.not. awake) awake = .not. pair_is_asleep(contact%pair(p), u)
+      call test_sleep(contact%pair(p), u, asleep)
+      awake = awake .or. .not. asleep
     end do
     if (awake .or. contact%keeps_before) call remember(contact)
     if (awake) then

@@ -14,7 +14,7 @@ contains
   !> The command line.
   subroutine write_usage(unit)
     integer, intent(in) :: unit
-    character(76), parameter :: line(16) = [character(76) :: &
+    character(80), parameter :: line(16) = [character(80) :: &
       'bipact DECK [-o DIR] [-D name=value]... [--check | --plan] [--quiet]', &
       'bipact --keywords | --help | --version', '', &
       '  DECK            input deck (a subset of the LS-DYNA keyword format)', &

@@ -90,8 +90,10 @@ contains
     end select
   end subroutine one_order
 
-  !> Reverse Cuthill-McKee (1969; George 1971) on the subgraph of `nodes`: first outwards from the
-  !> nodes that come last, so that they gather no fill from afar, then from nodes of least degree.
+  !> Reverse Cuthill-McKee (1969; George 1971) on the subgraph of `nodes`: first outwards from
+  !> the
+  !> nodes that come last, so that they gather no fill from afar, then from nodes of least
+  !> degree.
   pure subroutine reverse_cuthill_mckee(graph, nodes, last, order)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: nodes(:), last(:)

@@ -31,6 +31,7 @@ module run_data
     logical :: contact = .false.
     logical :: loads = .false.
     logical :: ledger = .false.
+    logical :: refinement = .false.
     integer :: full_steps = 0
     real(wp) :: last_step = zero     !< length of a cut last step; 0 = none [T]
   end type plan_t
@@ -54,6 +55,7 @@ module run_data
     real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (2, n) only with loads [F]
     real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) contact block
     real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
+    real(wp), allocatable :: correction(:, :)              !< (2, n) only with refinement
     integer :: factors = 0, analyses = 0, solves = 0
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The step loop.
 module run_loop
-  use assembly_forces, only: add_loads, largest_rotation
-  use assembly_system, only: clear_fixed
+  use assembly_forces, only: add_loads, largest_rotation, subtract_internal_force
+  use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
   use base_signal, only: stop_asked
   use base_status, only: status_t, fail, failed, add_place, status_numerical, status_stopped
@@ -14,6 +14,7 @@ module run_loop
   use contact_setup, only: find_candidates
   use contact_stage, only: solve_contact, settle_contact
   use contact_work, only: add_contact_step, contact_work_t
+  use linalg_solver, only: solve_whole
   use output_rows, only: any_due, energies_due, write_rows
   use run_data, only: run_t
   use run_progress, only: progress_t, show_progress, clear_progress
@@ -69,6 +70,7 @@ contains
       if (run%plan%contact) call add_contact(run, acting, status)
       call run%solver%backward(run%x_last, run%x)
       run%solves = run%solves + 1
+      if (run%plan%refinement) call refine(run, stage)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
       call swap(run%state%du, run%x)
@@ -80,6 +82,28 @@ contains
     call account(run, acting, status)
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance
+
+  !> One correction of x: the residual b + H' r - A x from the mass and the element strains,
+  !> solved
+  !> with the same factor (Wilkinson 1963).
+  subroutine refine(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    integer :: k
+    call run%timers%enter(phase_product)
+    call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
+    call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
+    if (run%plan%contact) then
+      do k = 1, size(run%contact%block)
+        run%b(:, run%contact%block(k)) = run%b(:, run%contact%block(k)) + run%force(:, k)
+      end do
+    end if
+    if (run%system%any_fixed) call clear_fixed(run%system, run%b)
+    call run%timers%enter(phase_solve)
+    call solve_whole(run%solver, run%b, run%correction)
+    run%x = run%x + run%correction
+    run%solves = run%solves + 1
+  end subroutine refine
 
   !> The step and its time, for messages.
   function moment(run) result(text)

@@ -9,7 +9,7 @@ module run_plan
   use run_data, only: plan_t
   implicit none
   private
-  public :: make_plan, plan_line
+  public :: make_plan, plan_line, add_feature
 
 contains
 
@@ -21,12 +21,14 @@ contains
     call plan_steps(model, plan, status)
     call plan_contact(model, plan)
     plan%loads = size(model%load) + size(model%gravity) > 0
-    call add(plan, 'loads', plan%loads, to_text(size(model%load))//' nodal, '// &
+    call add_feature(plan, 'loads', plan%loads, to_text(size(model%load))//' nodal, '// &
              to_text(size(model%gravity))//' body')
-    call add(plan, 'supports', any(model%fixed), to_text(count(model%fixed))//' fixed dofs')
-    call add(plan, 'massless', model%controls%redistribute, 'REDIST '// &
+    call add_feature(plan, 'supports', any(model%fixed), to_text(count(model%fixed))// &
+      ' fixed dofs')
+    call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
              merge('1', '0', model%controls%redistribute))
-    call add(plan, 'kinematics', .false., 'small displacements: one stiffness, factored once')
+    call add_feature(plan, 'kinematics', .false., &
+      'small displacements: one stiffness, factored once')
     call plan_tables(model, plan)
   end subroutine make_plan
 
@@ -54,8 +56,8 @@ contains
         plan%full_steps = c%end_cycle
         plan%last_step = zero
       end if
-      call add(plan, 'steps', .true., to_text(plan%full_steps)//' of '//to_text(c%dt))
-      call add(plan, 'cut step', plan%last_step > zero, 'ENDTIM/DT0 = '//to_text(steps))
+      call add_feature(plan, 'steps', .true., to_text(plan%full_steps)//' of '//to_text(c%dt))
+      call add_feature(plan, 'cut step', plan%last_step > zero, 'ENDTIM/DT0 = '//to_text(steps))
     end associate
   end subroutine plan_steps
 
@@ -66,13 +68,16 @@ contains
     plan%contact = size(model%contact) > 0
     friction = .false.
     if (plan%contact) friction = any(model%contact%mu > zero)
-    call add(plan, 'contact', plan%contact, to_text(size(model%contact))//' contact card(s)')
+    call add_feature(plan, 'contact', plan%contact, to_text(size(model%contact))// &
+      ' contact card(s)')
     if (.not. plan%contact) then
-      call add(plan, 'friction', .false., 'no contact')
+      call add_feature(plan, 'friction', .false., 'no contact')
     else if (friction) then
-      call add(plan, 'friction', .true., 'mu = '//to_text(maxval(model%contact%mu))//' at most')
+      call add_feature(plan, 'friction', .true., 'mu = '//to_text(maxval(model%contact%mu))// &
+        ' at most')
     else
-      call add(plan, 'friction', .false., 'mu = 0 in all pairs: scalar contact rows only')
+      call add_feature(plan, 'friction', .false., &
+        'mu = 0 in all pairs: scalar contact rows only')
     end if
   end subroutine plan_contact
 
@@ -81,24 +86,26 @@ contains
     type(plan_t), intent(inout) :: plan
     associate (r => model%requests)
       plan%ledger = r%glstat > zero .or. r%matsum > zero .or. model%controls%ledger_every > 0
-      call add(plan, 'glstat', r%glstat > zero, 'every '//to_text(r%glstat))
-      call add(plan, 'matsum', r%matsum > zero, 'every '//to_text(r%matsum))
-      call add(plan, 'nodout', r%nodout > zero, to_text(size(r%history_node))// &
+      call add_feature(plan, 'glstat', r%glstat > zero, 'every '//to_text(r%glstat))
+      call add_feature(plan, 'matsum', r%matsum > zero, 'every '//to_text(r%matsum))
+      call add_feature(plan, 'nodout', r%nodout > zero, to_text(size(r%history_node))// &
         ' nodes, every '// &
                to_text(r%nodout))
-      call add(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
-      call add(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
-      call add(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))
+      call add_feature(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
+      call add_feature(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
+      call add_feature(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))
       if (model%controls%ledger_every > 0) then
-        call add(plan, 'ledger', .true., 'every '//to_text(model%controls%ledger_every)// &
+        call add_feature(plan, 'ledger', .true., 'every '// &
+          to_text(model%controls%ledger_every)// &
           ' steps')
       else
-        call add(plan, 'ledger', .true., 'with GLSTAT, and at the end')
+        call add_feature(plan, 'ledger', .true., 'with GLSTAT, and at the end')
       end if
     end associate
   end subroutine plan_tables
 
-  subroutine add(plan, name, on, reason)
+  !> Adds a line to the plan.
+  subroutine add_feature(plan, name, on, reason)
     type(plan_t), intent(inout) :: plan
     character(*), intent(in) :: name
     logical, intent(in) :: on
@@ -107,7 +114,7 @@ contains
     plan%feature(plan%n)%name = name
     plan%feature(plan%n)%on = on
     plan%feature(plan%n)%reason = reason
-  end subroutine add
+  end subroutine add_feature
 
   !> One line of the plan.
   pure function plan_line(plan, k) result(line)

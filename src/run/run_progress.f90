@@ -29,7 +29,8 @@ contains
     real(wp) :: elapsed
     if (.not. progress%known) then
       progress%known = .true.
-      progress%on = .not. quiet .and. is_terminal(2)
+      progress%on = is_terminal(2)
+      if (quiet) progress%on = .false.
       call system_clock(progress%start)
     end if
     if (.not. progress%on .or. mod(cycle, steps_between_looks) /= 0) return

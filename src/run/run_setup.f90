@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
 module run_setup
-  use assembly_system, only: make_system, effective_matrix
-  use base_kinds, only: zero
+  use assembly_system, only: make_system, effective_matrix, stiffness_ratio
+  use base_kinds, only: wp, zero
   use base_status, only: status_t, failed, fail, status_deck
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
   use contact_setup, only: make_contact, contact_nodes, find_candidates
@@ -14,13 +14,16 @@ module run_setup
   use linalg_registry, only: make_solver
   use model_state, only: make_state
   use run_data, only: run_t
-  use run_plan, only: make_plan
+  use run_plan, only: make_plan, add_feature
   use scene_model, only: make_scene
   use time_ledger, only: make_ledger
   use time_registry, only: make_scheme
   implicit none
   private
   public :: read_scene, set_up, factor_matrix
+
+  !> About a Courant number of 10.
+  real(wp), parameter :: refinement_ratio = 200.0_wp
 
 contains
 
@@ -68,8 +71,23 @@ contains
     end if
     call first_candidates(run, status)
     call factor_matrix(run, .true., status)
+    call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
+
+  !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
+  !> loses
+  !> digits that the ledger needs: then each solve is followed by one correction.
+  subroutine plan_refinement(run)
+    type(run_t), intent(inout) :: run
+    real(wp) :: ratio
+    ratio = stiffness_ratio(run%system, run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k)
+    run%plan%refinement = ratio > refinement_ratio
+    call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
+                     to_text(ratio)//' in the effective matrix, limit '// &
+                       to_text(refinement_ratio))
+    if (run%plan%refinement) allocate (run%correction(2, run%system%n))
+  end subroutine plan_refinement
 
   subroutine first_candidates(run, status)
     type(run_t), intent(inout) :: run
