@@ -6,6 +6,7 @@ module base_strings
   private
   public :: upper, to_text, short_real, join_path, folder_of, stem_of, edit_distance
 
+  !> Numbers as text for messages and logs.
   interface to_text
     module procedure :: integer_text
     module procedure :: long_text

@@ -43,8 +43,8 @@ contains
     if (has_acceleration) more = ' ax ay az'
     associate (r => model%requests, f => tables%file)
       call open_table(f(glstat), folder, 'glstat', r%glstat, model%title, &
-        'time cycle dt kinetic internal total initial external motion friction contact unsolved '// &
-        'algorithmic damping residual ratio momx momy momz angx angy angz', status)
+        'time cycle dt kinetic internal total initial external motion friction contact '// &
+        'unsolved algorithmic damping residual ratio momx momy momz angx angy angz', status)
       call open_table(f(matsum), folder, 'matsum', r%matsum, model%title, &
         'time part mass kinetic internal momx momy momz vx vy vz', status)
       call open_table(f(nodout), folder, 'nodout', r%nodout, model%title, &

@@ -37,6 +37,7 @@ program bipact
     call work(status)
   end if
   if (failed(status)) write (error_unit, '(a)') 'bipact: '//status_text(status)
+  deallocate (run)
   call leave(status%code)
 
 contains

@@ -49,7 +49,7 @@ contains
         plan%full_steps = int(steps)
         plan%last_step = c%end_time - plan%full_steps*c%dt
         if (c%mass == 'DISPERSION' .and. c%courant < zero) call fail(status, status_deck, &
-          'ENDTIM is no whole number of steps DT0, and the mass DISPERSION is tuned to one step', &
+          'ENDTIM is no whole number of steps DT0; the mass DISPERSION is tuned to one step', &
           hint='change ENDTIM or DT0')
       end if
       if (c%end_cycle > 0 .and. c%end_cycle <= plan%full_steps) then

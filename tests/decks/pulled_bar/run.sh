@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# pulled_bar in cases.py says what is exact and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/cases.py" pulled_bar
