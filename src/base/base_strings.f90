@@ -54,27 +54,32 @@ contains
     text = short_real(trim(adjustl(buffer)))
   end function real_text_short
 
-  !> Takes the zeros out of an exponential number: 1.500000E-003 becomes 1.5E-3, 2.0E+000
-  !> becomes 2.0.
+  !> The shortest layout of an exponential number: 1.500000E-003 becomes 0.0015, 2.000000E+008
+  !> becomes 2.0E8; text without an exponent (NaN, Infinity) stays as it is.
   pure function short_real(long) result(text)
     character(*), intent(in) :: long
-    character(:), allocatable :: text
+    character(:), allocatable :: text, digits, sign
     integer :: e, last, power, ios
-    character(8) :: buffer
     e = index(long, 'E')
-    if (e == 0) then
-      text = long
-      return
-    end if
-    last = e - 1
-    do while (long(last:last) == '0' .and. long(last - 1:last - 1) /= '.')
-      last = last - 1
-    end do
+    text = long
+    if (e == 0) return
     read (long(e + 1:), *, iostat=ios) power
-    text = long(1:last)
-    if (power == 0 .or. ios /= 0) return
-    write (buffer, '(i0)') power
-    text = text//'E'//trim(buffer)
+    if (ios /= 0) return
+    sign = ''
+    if (long(1:1) == '-') sign = '-'
+    digits = long(len(sign) + 1:len(sign) + 1)//long(len(sign) + 3:e - 1)
+    last = max(1, verify(digits, '0', back=.true.))
+    digits = digits(1:last)
+    if (power < -4 .or. power > 6) then
+      if (last == 1) digits = digits//'0'
+      text = sign//digits(1:1)//'.'//digits(2:)//'E'//integer_text(power)
+    else if (power < 0) then
+      text = sign//'0.'//repeat('0', -power - 1)//digits
+    else if (last <= power + 1) then
+      text = sign//digits//repeat('0', power + 1 - last)//'.0'
+    else
+      text = sign//digits(1:power + 1)//'.'//digits(power + 2:)
+    end if
   end function short_real
 
   !> Joins a folder and a file name.

@@ -170,8 +170,8 @@ contains
     if (card%field(1)%kind == 'T') return
     do k = 1, len(line)
       if (line(k:k) >= ' ' .and. line(k:k) <= '~') cycle
-      call deck%complain(deck%records, '', merge('a tab in a data card              ', &
-        'a byte that is not ASCII in a card', line(k:k) == achar(9)), &
+      call deck%complain(deck%records, '', trim(merge('a tab in a data card              ', &
+        'a byte that is not ASCII in a card', line(k:k) == achar(9))), &
           'expand tabs to blanks; use plain ASCII')
       return
     end do
@@ -373,16 +373,16 @@ contains
       if (len_trim(field%default) == 0) ok = .not. abs(value) > 0.0_wp
     end if
     if (ok) return
-    associate (keyword => trim(deck%table%keyword(deck%block(deck%blocks)%keyword)%name))
-      if (field%class == field_tuning) then
-        call add_note(deck%problems, '*'//keyword//' '//trim(field%name)// &
-          ' tunes another method and has no effect')
-      else
-        call deck%complain(deck%records, trim(field%name), 'expected blank or the default "'// &
-          trim(field%default)//'", found "'//text//'"', &
-            'what this field asks for is not available in this version')
-      end if
-    end associate
+    if (field%class == field_tuning) then
+      call add_note(deck%problems, '*'// &
+        trim(deck%table%keyword(deck%block(deck%blocks)%keyword)%name)//' '// &
+          trim(field%name)// &
+        ' tunes another method and has no effect')
+    else
+      call deck%complain(deck%records, trim(field%name), 'expected blank or the default "'// &
+        trim(field%default)//'", found "'//text//'"', &
+        'what this field asks for is not available in this version')
+    end if
   end subroutine check_value
 
   pure function range_text(field) result(text)

@@ -177,12 +177,16 @@ contains
     type(cursor_t), intent(in) :: cursor
     integer, intent(in) :: column
     character(*), intent(in) :: what
+    character(:), allocatable :: hint
+    hint = 'each name/value pair is 20 columns wide: the type letter R, I or C in the '// &
+           'first, the value in its last ten'
+    if (scan(what(max(1, len(what) - 1):), 'RICric') > 0 .and. what(len(what):) == '"') &
+      hint = hint//'; this pair looks one column short'
     call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
       to_text(cursor%line), column, &
       column + pair_width - 1, '*PARAMETER: '//what, &
       deck%file(cursor%file)%text(cursor%first:cursor%last), &
-      'each name/value pair is 20 columns wide: the type letter R, I or C in the first, '// &
-      'the value in its last ten'))
+      hint))
   end subroutine complain
 
   !> An override of a name that no *PARAMETER defines is a problem, never ignored.
