@@ -84,7 +84,7 @@ $(error $(FC) was not found: run "make deps", which installs what is missing)
 endif
 
 flags.release := -O3 $(if $(ARCH),-march=$(ARCH))
-flags.debug := -O0 -g -fcheck=all -finit-real=snan -ffpe-trap=invalid,zero,overflow -fbacktrace \
+flags.debug := -O0 -g -fcheck=all,no-array-temps -finit-real=snan -ffpe-trap=invalid,zero,overflow -fbacktrace \
                -DBIPACT_DEBUG
 flags.sanitize := -O1 -g -fsanitize=address,undefined -fbacktrace -DBIPACT_DEBUG
 ifeq ($(flags.$(FLAVOUR)),)

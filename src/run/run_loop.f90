@@ -57,6 +57,7 @@ contains
                run%state%cycle == run%plan%full_steps)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
+    acting = .false.
     do stage = 1, size(run%scheme%stage)
       call run%timers%enter(phase_product)
       run%b = zero
@@ -139,6 +140,9 @@ contains
     type(run_t), intent(inout) :: run
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
+    acting = .false.
+    run%force = zero
+    if (run%contact%n == 0) return
     call run%timers%enter(phase_contact)
     call build_w(run%contact)
     call solve_contact(run%contact, run%x_last, run%force, acting, status)
@@ -197,6 +201,7 @@ contains
                                                         + run%scheme%dissipation(run%system, &
                                                           run%state)
     if (.not. run%plan%contact) return
+    if (run%contact%n == 0 .and. run%contact%n_before == 0) return
     call run%timers%enter(phase_contact)
     call settle_contact(run%model, run%contact, run%state%du, acting, status)
     call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &

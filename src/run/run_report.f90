@@ -122,9 +122,29 @@ contains
         ', eta '//to_text(c%worst%eta)//', penetration/edge '//to_text(c%worst_penetration)// &
         ', certificate '//trim(merge('met    ', 'not met', c%worst%met))
     end associate
+    write (unit, '(a)') 'peak memory '//peak_memory()
     write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
       to_text(run%deck%problems%warning_count)
   end subroutine write_summary
+
+  !> Largest resident memory so far as the system tells it; "unknown" where it does not.
+  function peak_memory() result(text)
+    character(:), allocatable :: text
+    character(80) :: line
+    integer :: unit, ios
+    text = 'unknown'
+    open (newunit=unit, file='/proc/self/status', action='read', status='old', iostat=ios)
+    if (ios /= 0) return
+    do while (ios == 0)
+      read (unit, '(a)', iostat=ios) line
+      if (ios == 0 .and. line(1:6) == 'VmHWM:') then
+        text = trim(adjustl(line(7:)))
+        if (text(1:1) == achar(9)) text = trim(adjustl(text(2:)))
+        exit
+      end if
+    end do
+    close (unit)
+  end function peak_memory
 
   !> Where the time went: seconds by the monotonic clock and number of entries.
   subroutine write_phases(run, unit)

@@ -34,7 +34,12 @@ module time_ledger
     real(wp), allocatable :: part_kinetic(:), part_internal(:), part_momentum(:, :)
     real(wp), allocatable :: part_mass(:)
     real(wp), allocatable :: mv(:, :)
-    real(wp), allocatable :: share(:, :)  !< (parts, nodes) share of a node's momentum in a part
+    !> Part of each node; 0 where several parts meet: such a node counts in equal shares for
+    !> every
+    !> element corner there, listed in corner(:, (node, part)) with corner_share.
+    integer, allocatable :: owner(:)
+    integer, allocatable :: corner(:, :)
+    real(wp), allocatable :: corner_share(:)
   end type ledger_t
 
   public :: make_ledger, evaluate_ledger, balance, exchange_ledger
@@ -47,24 +52,21 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(ledger_t), intent(out) :: ledger
-    integer :: parts, e, k
+    integer :: parts, i, k
     parts = size(model%part)
-    allocate (ledger%part_kinetic(parts), ledger%part_internal(parts), &
-      ledger%part_momentum(2, parts))
-    allocate (ledger%part_mass(parts), ledger%mv(2, model%nodes), &
-      ledger%share(parts, model%nodes))
-    ledger%share = zero
+    allocate (ledger%part_kinetic(parts), ledger%part_internal(parts))
+    allocate (ledger%part_momentum(2, parts), ledger%part_mass(parts), &
+      ledger%mv(2, model%nodes))
+    call find_owners(model, ledger)
     ledger%part_mass = zero
-    do e = 1, model%elements
-      do k = 1, 4
-        associate (s => ledger%share(model%element_part(e), model%connectivity(k, e)))
-          s = s + one
-        end associate
-      end do
+    do i = 1, model%nodes
+      if (ledger%owner(i) == 0) cycle
+      ledger%part_mass(ledger%owner(i)) = ledger%part_mass(ledger%owner(i)) + system%lumped(i)
     end do
-    do k = 1, model%nodes
-      ledger%share(:, k) = ledger%share(:, k)/sum(ledger%share(:, k))
-      ledger%part_mass = ledger%part_mass + ledger%share(:, k)*system%lumped(k)
+    do k = 1, size(ledger%corner_share)
+      associate (m => ledger%part_mass(ledger%corner(2, k)))
+        m = m + ledger%corner_share(k)*system%lumped(ledger%corner(1, k))
+      end associate
     end do
     call evaluate_ledger(model, system, state, ledger)
     ledger%initial = ledger%total
@@ -72,13 +74,46 @@ contains
     call balance(ledger)
   end subroutine make_ledger
 
+  !> Which part each node belongs to.
+  subroutine find_owners(model, ledger)
+    type(model_t), intent(in) :: model
+    type(ledger_t), intent(inout) :: ledger
+    integer, allocatable :: corners(:)
+    integer :: e, k, n, pass
+    allocate (ledger%owner(model%nodes), corners(model%nodes))
+    ledger%owner = -1
+    corners = 0
+    do e = 1, model%elements
+      do k = 1, 4
+        associate (i => model%connectivity(k, e), part => model%element_part(e))
+          corners(i) = corners(i) + 1
+          if (ledger%owner(i) == -1) ledger%owner(i) = part
+          if (ledger%owner(i) /= part) ledger%owner(i) = 0
+        end associate
+      end do
+    end do
+    do pass = 1, 2
+      if (pass == 2) allocate (ledger%corner(2, n), ledger%corner_share(n))
+      n = 0
+      do e = 1, model%elements
+        do k = 1, 4
+          if (ledger%owner(model%connectivity(k, e)) /= 0) cycle
+          n = n + 1
+          if (pass == 1) cycle
+          ledger%corner(:, n) = [model%connectivity(k, e), model%element_part(e)]
+          ledger%corner_share(n) = one/corners(model%connectivity(k, e))
+        end do
+      end do
+    end do
+  end subroutine find_owners
+
   !> Energies, momenta, balance at the state; does nothing when the state has been evaluated.
   subroutine evaluate_ledger(model, system, state, ledger)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(ledger_t), intent(inout) :: ledger
-    real(wp) :: energy, p(2)
+    real(wp) :: moment
     integer :: i, k
     if (ledger%evaluated == state%cycle) return
     ledger%evaluated = state%cycle
@@ -87,23 +122,33 @@ contains
     call strain_energies(system, model%element_part, state%u, ledger%part_internal)
     ledger%part_kinetic = zero
     ledger%part_momentum = zero
-    ledger%momentum = zero
-    ledger%angular = zero
+    moment = zero
     do i = 1, model%nodes
-      p = ledger%mv(:, i)
-      energy = half*(state%v(1, i)*p(1) + state%v(2, i)*p(2))
-      ledger%momentum = ledger%momentum + p
-      ledger%angular = ledger%angular + (model%x(1, i)*p(2) - model%x(2, i)*p(1))
-      do k = 1, size(model%part)
-        ledger%part_kinetic(k) = ledger%part_kinetic(k) + ledger%share(k, i)*energy
-        ledger%part_momentum(:, k) = ledger%part_momentum(:, k) + ledger%share(k, i)*p
-      end do
+      moment = moment + (model%x(1, i)*ledger%mv(2, i) - model%x(2, i)*ledger%mv(1, i))
+      if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v(:, i), i)
     end do
+    do k = 1, size(ledger%corner_share)
+      i = ledger%corner(1, k)
+      call add_node(ledger, ledger%corner(2, k), ledger%corner_share(k), state%v(:, i), i)
+    end do
+    ledger%angular = moment
+    ledger%momentum = sum(ledger%part_momentum, dim=2)
     ledger%kinetic = sum(ledger%part_kinetic)
     ledger%internal = sum(ledger%part_internal)
     call balance(ledger)
     call watch_growth(ledger)
   end subroutine evaluate_ledger
+
+  !> A share of the momentum and kinetic energy of node i to a part.
+  pure subroutine add_node(ledger, part, share, v, i)
+    type(ledger_t), intent(inout) :: ledger
+    integer, intent(in) :: part, i
+    real(wp), intent(in) :: share, v(2)
+    real(wp) :: p(2)
+    p = share*ledger%mv(:, i)
+    ledger%part_kinetic(part) = ledger%part_kinetic(part) + half*(v(1)*p(1) + v(2)*p(2))
+    ledger%part_momentum(:, part) = ledger%part_momentum(:, part) + p
+  end subroutine add_node
 
   !> total, residual and ratio from the terms.
   pure subroutine balance(ledger)

@@ -264,6 +264,41 @@ def commands():
     balance("cut step", folder, True)
 
 
+def awkward():
+    """Legal but awkward forms of one deck: every one gives the tables of the plain form."""
+    base = open(os.path.join(scenes.ROOT, "tests", "bad_decks", "base.k")).read()
+    node = "       2             1.0             0.0\n"
+    material = "         1     0.001    1000.0       0.3"
+    forms = {
+        "carriage returns": base.replace("\n", "\r\n"),
+        "byte-order mark": "\ufeff" + base,
+        "lower case": "\n".join(x.lower() if x[:1] == "*" else x for x in base.split("\n")),
+        "no end": base.replace("*END\n", ""),
+        "text after the end": base + "anything\n*NONSENSE\n",
+        "comments": base.replace("*NODE\n", "*NODE\n$ caf\u00e9, a comment\n$#   nid\n"),
+        "comma form": base.replace(node, "2, 1.0, 0.0\n").replace(material, "1,0.001,1000.0,0.3"),
+        "bare exponent": base.replace(node, "       2           1.0+0           0.0-2\n"),
+        "d exponent": base.replace(node, "       2          1.00D0           0.0d0\n"),
+        "packed columns": base.replace(material, "         11.00000E-31000.00000      .300"),
+        "long form": base.replace("*MAT_ELASTIC\n" + material, "*MAT_ELASTIC+\n"
+                                  + "".join(x.rjust(20) for x in ("1", "0.001", "1000.0", "0.3"))),
+        "padding zeros": base.replace("         4\n*INIT", "         4         0         0\n*INIT"),
+        "title with commas": base.replace("a block in flight, the", "a, b,, c, the"),
+        "keyword with remark": base.replace("*NODE\n", "*NODE (four of them)\n"),
+        "minus parameter": base.replace("Rtend           0.01", "Rtend          -0.01").replace(
+            "     &tend", "    -&tend"),
+    }
+    plain, code, errors = run_text("plain", base)
+    check(code == 0, errors)
+    rows = table(plain, "glstat")
+    for name, text in forms.items():
+        check(text != base, name + " changes the deck")
+        folder, code, errors = run_text("awkward", text)
+        check(code == 0, name + ": " + errors)
+        other = table(folder, "glstat")
+        check(all(np.array_equal(rows[c], other[c]) for c in rows.names), name + ": other tables")
+
+
 if __name__ == "__main__":
     globals()[sys.argv[1]]()
     finish()

@@ -40,7 +40,7 @@ def bipact(deck, folder, *options):
 def run_text(name, text, *options):
     """Writes a deck from its text and runs it; returns (folder, exit code, standard error)."""
     deck, folder = os.path.join(TMP, name + ".k"), os.path.join(TMP, name)
-    with open(deck, "w") as out:
+    with open(deck, "w", newline="", encoding="utf-8") as out:
         out.write(text)
     code, errors, _ = bipact(deck, folder, *options)
     return folder, code, errors
