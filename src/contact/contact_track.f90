@@ -42,21 +42,6 @@ contains
     end associate
   end function place_on_edge
 
-  !> Outward normal of an edge as it stands.
-  pure function edge_normal(surface, edge, x, u) result(n)
-    type(surface_t), intent(in) :: surface
-    integer, intent(in) :: edge
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    real(wp) :: n(2), d(2), stretch(2)
-    associate (a => surface%end_node(1, edge), b => surface%end_node(2, edge))
-      stretch = u(:, b) - u(:, a)
-      n = surface%normal(:, edge)
-      if (.not. any(abs(stretch) > zero)) return
-      d = (x(:, b) - x(:, a)) + stretch
-      n = [d(2), -d(1)]/sqrt(sum(d**2))
-    end associate
-  end function edge_normal
-
   !> Moves a candidate to the edge that its node faces now; changed tells whether its frame or
   !> place
   !> differs from before.
@@ -72,7 +57,7 @@ contains
     c%valid = .true.
     do hop = 1, most_hops
       xi = place_on_edge(pair%obstacle, edge, x, u, c%node)
-      normal = edge_normal(pair%obstacle, edge, x, u)
+      normal = pair%obstacle%normal(:, edge)
       if (xi >= -end_tolerance .and. xi <= one + end_tolerance) exit
       side = merge(1, 2, xi < zero)
       next = pair%obstacle%neighbour(side, edge)
@@ -83,7 +68,7 @@ contains
       other = place_on_edge(pair%obstacle, next, x, u, c%node)
       if (next == came_from .or. (side == 1 .and. other > one) &
         .or. (side == 2 .and. other < zero)) then
-        normal = normal + edge_normal(pair%obstacle, next, x, u)
+        normal = normal + pair%obstacle%normal(:, next)
         normal = normal/sqrt(sum(normal**2))
         exit
       end if
