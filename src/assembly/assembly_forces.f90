@@ -1,8 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Internal forces and strain energy from element strains, and the loads.
 !> K U and U.K U would lose digits to the rigid motion of the bodies (1e-9 of the energy per
-!> step for
-!> a stiff bar in flight); relative displacements of an element do not.
+!> step for a stiff bar in flight); relative displacements of an element do not.
 module assembly_forces
   use base_kinds, only: wp, zero, half
   use assembly_system, only: system_t
@@ -10,7 +9,7 @@ module assembly_forces
   implicit none
   private
   public :: subtract_internal_force, strain_energies, strain_product, add_loads, &
-    largest_rotation
+      largest_rotation
 
 contains
 
@@ -21,7 +20,7 @@ contains
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
     call internal_kernel(size(system%corner, 2), system%n, system%corner, system%stiffness, &
-      factor, u, f)
+        factor, u, f)
   end subroutine subtract_internal_force
 
   pure subroutine internal_kernel(elements, n, corner, k, factor, u, f)
@@ -45,8 +44,8 @@ contains
       d(5) = factor*(u(1, i4) - u(1, i1))
       d(6) = factor*(u(2, i4) - u(2, i1))
       do i = 1, 6
-        g(i) = k(i, 1, e)*d(1) + k(i, 2, e)*d(2) + k(i, 3, e)*d(3) &
-               + k(i, 4, e)*d(4) + k(i, 5, e)*d(5) + k(i, 6, e)*d(6)
+        g(i) = k(i, 1, e)*d(1) + k(i, 2, e)*d(2) + k(i, 3, e)*d(3) + k(i, 4, e)*d(4) &
+            + k(i, 5, e)*d(5) + k(i, 6, e)*d(6)
       end do
       f(1, i1) = f(1, i1) + (g(1) + g(3) + g(5))
       f(2, i1) = f(2, i1) + (g(2) + g(4) + g(6))
@@ -94,10 +93,10 @@ contains
     end do
     element_product = zero
     do i = 1, 6
-      element_product = element_product + d(i)*( &
-        system%stiffness(1, i, e)*d(1) + system%stiffness(2, i, e)*d(2) &
-        + system%stiffness(3, i, e)*d(3) + system%stiffness(4, i, e)*d(4) &
-        + system%stiffness(5, i, e)*d(5) + system%stiffness(6, i, e)*d(6))
+      element_product = element_product &
+          + d(i)*(system%stiffness(1, i, e)*d(1) + system%stiffness(2, i, e)*d(2) &
+          + system%stiffness(3, i, e)*d(3) + system%stiffness(4, i, e)*d(4) &
+          + system%stiffness(5, i, e)*d(5) + system%stiffness(6, i, e)*d(6))
     end do
   end function element_product
 
@@ -141,8 +140,8 @@ contains
       end do
     end do
     do k = 1, size(model%gravity)
-      value = factor*model%gravity(k)%factor*curve_value(model%curve(model%gravity(k)%curve), &
-        time)
+      value = &
+          factor*model%gravity(k)%factor*curve_value(model%curve(model%gravity(k)%curve), time)
       p(model%gravity(k)%direction, :) = p(model%gravity(k)%direction, :) - value*system%lumped
     end do
   end subroutine add_loads

@@ -14,10 +14,8 @@ module assembly_mass
 contains
 
   !> Mass (4, 4) [M] of element e by the type asked for. CONSISTENT: Gauss points. LUMPED: its
-  !> row
-  !> sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu = c dt/h per direction, clipped
-  !> to
-  !> [0, 1] (Guddati & Yue 2004, tuned to the theta-method at theta = xi = 1/2).
+  !> row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu = c dt/h per direction,
+  !> clipped to [0, 1] (Guddati & Yue 2004, tuned to the theta-method at theta = xi = 1/2).
   pure subroutine element_mass(model, element, e, me)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element
@@ -50,9 +48,8 @@ contains
   end subroutine element_mass
 
   !> Where the mass of each node goes: itself, or for a massless contact node the inner
-  !> neighbours,
-  !> i.e. the nodes joined to it by an element edge that are no contact nodes themselves.
-  !> Rows first(n+1), target(:). Fails when a contact node has none.
+  !> neighbours, i.e. the nodes joined to it by an element edge that are no contact nodes
+  !> themselves. Rows first(n+1), target(:). Fails when a contact node has none.
   subroutine redistribution_targets(model, massless, first, target, status)
     type(model_t), intent(in) :: model
     integer, intent(in) :: massless(:)
@@ -71,8 +68,8 @@ contains
     do i = 1, model%nodes
       first(i + 1) = first(i) + merge(count(i), 1, is_contact(i))
       if (is_contact(i) .and. count(i) == 0) call fail(status, status_deck, &
-        'REDIST 1: contact node '//to_text(model%node_id(i))//' has no inner neighbour', &
-        hint='use REDIST 0, or more than one element across the body')
+          'REDIST 1: contact node '//to_text(model%node_id(i))//' has no inner neighbour', &
+          hint='use REDIST 0, or more than one element across the body')
     end do
     allocate (target(first(model%nodes + 1) - 1))
     do i = 1, model%nodes

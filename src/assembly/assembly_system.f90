@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The matrices of the bodies: node graph, mass, element stiffness, and the effective matrix of
-!> a
-!> time scheme, A = cM M + cC C + cK K (no damping yet: C = 0).
+!> a time scheme, A = cM M + cC C + cK K (no damping yet: C = 0).
 module assembly_system
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
@@ -75,8 +74,8 @@ contains
           if (first(i + 1) - first(i) == 1) then
             if (target(first(i)) == i) cycle
           end if
-          if (pass == 2) clique(m + 1:m + first(i + 1) - first(i)) &
-            = target(first(i):first(i + 1) - 1)
+          if (pass == 2) &
+              clique(m + 1:m + first(i + 1) - first(i)) = target(first(i):first(i + 1) - 1)
           m = m + first(i + 1) - first(i)
         end do
       end do
@@ -126,7 +125,7 @@ contains
       do k = system%graph%first(i), system%graph%first(i + 1) - 1
         system%lumped(i) = system%lumped(i) + system%mass(k)
         if (system%graph%column(k) /= i .and. abs(system%mass(k)) > zero) &
-          system%mass_is_diagonal = .false.
+            system%mass_is_diagonal = .false.
       end do
     end do
   end subroutine row_sums
@@ -142,16 +141,14 @@ contains
     do e = 1, model%elements
       associate (part => model%part(model%element_part(e)))
         call element%stiffness(model%x(:, model%connectivity(:, e)), &
-                               model%material(part%material)%item%moduli(part%plane), &
-                               part%thickness, ke)
+            model%material(part%material)%item%moduli(part%plane), part%thickness, ke)
       end associate
       system%stiffness(:, :, e) = ke(3:8, 3:8)
     end do
   end subroutine assemble_stiffness
 
   !> A = cM M + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal only,
-  !> so
-  !> that a right-hand side of zero there gives a displacement of zero.
+  !> so that a right-hand side of zero there gives a displacement of zero.
   subroutine effective_matrix(system, c_m, c_k, matrix)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_k
@@ -168,7 +165,7 @@ contains
     do i = 1, system%n
       do k = system%graph%first(i), system%graph%first(i + 1) - 1
         call clear_block(system%fixed(:, i), system%fixed(:, system%graph%column(k)), &
-                         system%graph%column(k) == i, matrix%value(:, :, k))
+            system%graph%column(k) == i, matrix%value(:, :, k))
       end do
     end do
   end subroutine effective_matrix
@@ -236,7 +233,7 @@ contains
       end do
     else
       call scalar_product(system%n, system%graph%first, system%graph%column, system%mass, &
-        factor, x, y)
+          factor, x, y)
     end if
   end subroutine multiply_mass
 

@@ -1,9 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A table of named arrays that holds everything a run needs to go on from where it is. Every
-!> owner
-!> of state names its arrays once, in one procedure that serves saving and restoring alike;
-!> whoever
-!> keeps the table (in memory, in a file) knows nothing else about them.
+!> owner of state names its arrays once, in one procedure that serves saving and restoring
+!> alike; whoever keeps the table (in memory, in a file) knows nothing else about them.
 module base_archive
   use base_kinds, only: wp
   use base_status, only: status_t, fail, failed, status_file
@@ -31,7 +29,7 @@ module base_archive
     procedure :: exchange_matrix
     procedure :: exchange_integers
     generic :: exchange => exchange_integer, exchange_real, exchange_vector, exchange_matrix, &
-      exchange_integers
+        exchange_integers
   end type archive_t
 
 contains
@@ -61,7 +59,7 @@ contains
       call fail(this%status, status_file, 'the archive ends before "'//name//'"')
     else if (this%entry(this%next)%name /= name) then
       call fail(this%status, status_file, 'the archive has no "'//name// &
-        '" where it is expected')
+          '" where it is expected')
     else if (size(this%entry(this%next)%values) /= size(values)) then
       call fail(this%status, status_file, 'the archive holds "'//name//'" in another size')
     else

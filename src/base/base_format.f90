@@ -1,9 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Real numbers as text of full precision, ES24.16E3, several times faster than the run-time
-!> library does it: tables of a short run would otherwise cost a quarter of its time.
-!> The 17 digits come from one product a*10^k in double-double arithmetic (Dekker 1971), whose
-!> error
-!> of 1e-31 is far below half a unit of the last digit, so the text reads back equal.
+!> library does it: tables of a short run would otherwise cost a quarter of its time. The 17
+!> digits come from one product a*10^k in double-double arithmetic (Dekker 1971), whose error of
+!> 1e-31 is far below half a unit of the last digit, so the text reads back equal.
 module base_format
   use base_kinds, only: wp, i8
   implicit none
@@ -40,8 +39,7 @@ contains
   end subroutine make_real_writer
 
   !> Writes x as ES24.16E3 into text. Zero keeps no sign; numbers beyond 1e+-260, infinite ones
-  !> and
-  !> those that are none go the slow way through the run-time library.
+  !> and those that are none go the slow way through the run-time library.
   pure subroutine put_real(writer, x, text)
     type(real_writer_t), intent(in) :: writer
     real(wp), intent(in) :: x

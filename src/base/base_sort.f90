@@ -22,7 +22,7 @@ contains
     do while (width < n)
       do first = 1, n, 2*width
         call merge_runs(key, order, other, first, min(first + width, n + 1), &
-          min(first + 2*width, n + 1))
+            min(first + 2*width, n + 1))
       end do
       order = other
       width = 2*width

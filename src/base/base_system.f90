@@ -43,7 +43,7 @@ contains
     ignored = c_mkdir(path//c_null_char, mode)
     if (c_access(path//'/.'//c_null_char, may_write) /= 0_c_int) then
       call fail(status, status_file, 'cannot make or write the folder "'//path//'"', &
-                hint='choose another one with -o DIR')
+          hint='choose another one with -o DIR')
     end if
   end subroutine make_folder
 

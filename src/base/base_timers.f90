@@ -1,8 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Where the time of a run goes: one clock reading at each change of phase, and a count of
-!> entries.
-!> The clock is the monotonic one, because it is cheap (about 30 ns); the processor time of the
-!> whole process is read separately and the log gives both.
+!> entries. The clock is the monotonic one, because it is cheap (about 30 ns); the processor
+!> time of the whole process is read separately and the log gives both.
 module base_timers
   use base_kinds, only: wp, i8
   implicit none

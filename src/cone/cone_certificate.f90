@@ -13,8 +13,7 @@ module cone_certificate
 contains
 
   !> e = b(-u, r) + u.r = mu r_n |u_t| + r_t.u_t + r_n u_n of one contact [F L]: zero exactly
-  !> where
-  !> the law of contact and friction holds (De Saxce & Feng 1998); an energy misfit.
+  !> where the law of contact and friction holds (De Saxce & Feng 1998); an energy misfit.
   pure real(wp) function bipotential_residual(mu, r, u)
     real(wp), intent(in) :: mu
     real(wp), intent(in) :: r(:)

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Gauss-Seidel over the contacts with the bi-potential local solver, and the direct solve for
-!> the
-!> statuses it has found.
+!> the statuses it has found.
 module cone_gauss_seidel
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, status_numerical
@@ -10,23 +9,21 @@ module cone_gauss_seidel
   use cone_local, only: solve_local
   use cone_polish, only: polish_statuses
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, size_cone_work, &
-    contact_open, contact_slip
+      contact_open, contact_slip
   use linalg_dense, only: largest_eigenvalue_2
   implicit none
   private
   public :: solve_cone
 
   !> A direct solve for the statuses is tried up to this many unknowns, and beyond it only when
-  !> more
-  !> sweeps than unknowns have been spent.
+  !> more sweeps than unknowns have been spent.
   integer, parameter :: small_system = 64
 
 contains
 
   !> Solves u = W r + q with r in the cones. W (d nc, d nc) [L/F], q (d, nc) [L], mu (nc); r on
-  !> entry
-  !> is the start, on exit the reactions [F]; work%u the motions [L], work%status the statuses.
-  !> Fails when neither sweeps nor direct solves meet the tolerance.
+  !> entry is the start, on exit the reactions [F]; work%u the motions [L], work%status the
+  !> statuses. Fails when neither sweeps nor direct solves meet the tolerance.
   subroutine solve_cone(options, w, q, mu, r, work, certificate, status)
     type(cone_options_t), intent(in) :: options
     real(wp), intent(in) :: w(:, :)
@@ -54,14 +51,13 @@ contains
       certificate%sweeps = sweep
       call certify(m, mu, q, r, work%u, options%tolerance, certificate)
       if (options%solver /= 'GS' .and. polish_due(sweep, work)) &
-        call try_polish(options, w, q, mu, m, r, work, certificate)
+          call try_polish(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end do
     call fail(status, status_numerical, 'the contact solve did not converge in '// &
-      to_text(options%max_sweeps)// &
-              ' sweeps: error '//to_text(certificate%error)//', eta '// &
-                to_text(certificate%eta), &
-              hint='raise MAXIT or TOL on *BIPACT_CONTACT, or refine the step')
+        to_text(options%max_sweeps)//' sweeps: error '//to_text(certificate%error)//', eta '// &
+        to_text(certificate%eta), &
+        hint='raise MAXIT or TOL on *BIPACT_CONTACT, or refine the step')
   end subroutine solve_cone
 
   !> rho = factor / lmax(W_aa) per contact, and u for the starting reactions.
@@ -80,8 +76,8 @@ contains
       if (d == 1) then
         work%rho(a) = options%rho_factor/w(a, a)
       else
-        work%rho(a) = options%rho_factor/largest_eigenvalue_2(w(row + 1:row + 2, row + 1:row &
-          + 2))
+        work%rho(a) = &
+            options%rho_factor/largest_eigenvalue_2(w(row + 1:row + 2, row + 1:row + 2))
       end if
       do i = 1, d
         if (abs(r(i, a)) > zero) call add_column(w(:, row + i), r(i, a), work%u)
@@ -121,12 +117,12 @@ contains
       old = r(:, a)
       u = work%u(:, a)
       call solve_local(w(row + 1:row + d, row + 1:row + d), mu(a), work%rho(a), enough, &
-                       merge(1, options%max_local, change >= huge(change)), r(:, a), u, &
-                         work%status(a), iterations)
+          merge(1, options%max_local, change >= huge(change)), r(:, a), u, &
+          work%status(a), iterations)
       local_iterations = local_iterations + iterations
       do i = 1, d
-        if (abs(r(i, a) - old(i)) > zero) call add_column(w(:, row + i), r(i, a) &
-          - old(i), work%u)
+        if (abs(r(i, a) - old(i)) > zero) &
+            call add_column(w(:, row + i), r(i, a) - old(i), work%u)
       end do
       sum_change = sum_change + sqrt(sum((r(:, a) - old)**2))
     end do
@@ -140,9 +136,9 @@ contains
     type(cone_work_t), intent(in) :: work
     integer :: unknowns
     unknowns = sum(merge(0, merge(1, work%d, work%status == contact_slip), &
-      work%status == contact_open))
-    polish_due = unknowns > 0 .and. work%d < 3 .and. (unknowns <= small_system &
-      .or. sweep > unknowns)
+        work%status == contact_open))
+    polish_due = unknowns > 0 .and. work%d < 3 &
+        .and. (unknowns <= small_system .or. sweep > unknowns)
     if (polish_due) polish_due = any(work%status /= work%tried)
   end function polish_due
 
@@ -170,8 +166,8 @@ contains
     do a = 1, size(mu)
       if (.not. in_cone(mu(a), work%trial(:, a))) return
       do i = 1, d
-        if (abs(work%trial(i, a)) > zero) call add_column(w(:, d*(a - 1) + i), &
-          work%trial(i, a), u)
+        if (abs(work%trial(i, a)) > zero) &
+            call add_column(w(:, d*(a - 1) + i), work%trial(i, a), u)
       end do
     end do
     trial = certificate

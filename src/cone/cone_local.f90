@@ -22,8 +22,8 @@ contains
     end select
   end function tangent_length
 
-  !> r = projection of tau on {|r_t| <= mu r_n}, and which part of the cone it lies on
-  !> (De Saxce & Feng 1991). The polar cone is tested first.
+  !> r = projection of tau on {|r_t| <= mu r_n}, and which part of the cone it lies on (De Saxce
+  !> & Feng 1991). The polar cone is tested first.
   pure subroutine project_on_cone(mu, tau, r, status)
     real(wp), intent(in) :: mu
     real(wp), intent(in) :: tau(:)

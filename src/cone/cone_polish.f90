@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A direct solve for given statuses: once the sweeps have found who is open, sticks or slips,
-!> the
-!> law is linear, and one small system gives the reactions to round-off.
+!> the law is linear, and one small system gives the reactions to round-off.
 !> (One step of a Newton method on the natural map, Alart & Curnier 1991, in the plane.)
 module cone_polish
   use base_kinds, only: wp, zero
@@ -13,9 +12,8 @@ module cone_polish
 
 contains
 
-  !> Reactions work%trial for the statuses work%status: stick u = 0; slip u_n = 0 and
-  !> r_t = -mu r_n sign(u_t), the sign taken from r_t now. ok is false if the system is
-  !> singular.
+  !> Reactions work%trial for the statuses work%status: stick u = 0; slip u_n = 0 and r_t = -mu
+  !> r_n sign(u_t), the sign taken from r_t now. ok is false if the system is singular.
   subroutine polish_statuses(w, q, mu, r, work, ok)
     real(wp), intent(in) :: w(:, :)
     real(wp), intent(in) :: q(:, :)
@@ -65,7 +63,7 @@ contains
         row = d*(work%unknown(2, i) - 1) + work%unknown(1, i)
         work%matrix(i, j) = w(row, column)
         if (work%status(a) == contact_slip .and. d > 1) &
-          work%matrix(i, j) = w(row, column) + slip_ratio(mu(a), r(:, a))*w(row, column + 1)
+            work%matrix(i, j) = w(row, column) + slip_ratio(mu(a), r(:, a))*w(row, column + 1)
       end do
       work%rhs(j) = -q(work%unknown(1, j), a)
     end do

@@ -1,10 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The discrete contact problem and what is said of its solution.
 !> Given u = W r + q, find r in Coulomb's cone K of every contact so that (u_n + mu |u_t|, u_t)
-!> lies
-!> in the dual cone and is orthogonal to r (De Saxce & Feng 1991, 1998). Contact a owns
-!> components
-!> (1, a) normal, (2.., a) tangential; without friction d = 1.
+!> lies in the dual cone and is orthogonal to r (De Saxce & Feng 1991, 1998). Contact a owns
+!> components (1, a) normal, (2.., a) tangential; without friction d = 1.
 module cone_types
   use base_kinds, only: wp, zero
   implicit none

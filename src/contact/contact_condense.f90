@@ -21,16 +21,14 @@ contains
     do i = 1, contact%n
       associate (c => contact%candidate(i))
         if (.not. c%valid) cycle
-        if (min(contact%block_row(c%node), contact%block_row(c%a), contact%block_row(c%b)) &
-          == 0) &
-          block_outgrown = .true.
+        if (min(contact%block_row(c%node), contact%block_row(c%a), &
+            contact%block_row(c%b)) == 0) block_outgrown = .true.
       end associate
     end do
   end function block_outgrown
 
   !> Makes the block from the listed candidates, with one more edge on either side of each, so
-  !> that
-  !> sliding does not outgrow it at once.
+  !> that sliding does not outgrow it at once.
   subroutine make_block(contact)
     type(contact_t), intent(inout) :: contact
     logical, allocatable :: taken(:)
@@ -39,7 +37,7 @@ contains
     taken = .false.
     do i = 1, contact%n
       associate (c => contact%candidate(i), &
-        obstacle => contact%pair(contact%candidate(i)%pair)%obstacle)
+          obstacle => contact%pair(contact%candidate(i)%pair)%obstacle)
         taken([c%node, c%a, c%b]) = .true.
         do s = 1, 2
           next = obstacle%neighbour(s, c%edge)
@@ -70,15 +68,14 @@ contains
         was_valid = c%valid
         call update_candidate(contact%pair(c%pair), x, u, c, changed)
         if (t1 < contact%pair(c%pair)%birth .or. t1 > contact%pair(c%pair)%death) &
-          c%valid = .false.
+            c%valid = .false.
         if (changed .or. (c%valid .neqv. was_valid)) contact%w_is_current = .false.
       end associate
     end do
   end subroutine track_candidates
 
   !> Rows of the valid candidates and W for them, when something has changed. Candidates whose
-  !> both
-  !> sides are held (W_nn = 0) have no row.
+  !> both sides are held (W_nn = 0) have no row.
   subroutine build_w(contact)
     type(contact_t), intent(inout) :: contact
     real(wp) :: scale
@@ -113,7 +110,7 @@ contains
       do i = 1, j
         call fill_w(contact, i, j, contact%w(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j))
         if (i < j) contact%w(d*(j - 1) + 1:d*j, d*(i - 1) + 1:d*i) = &
-          transpose(contact%w(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j))
+            transpose(contact%w(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j))
       end do
     end do
   end subroutine build_w
@@ -123,8 +120,8 @@ contains
     integer, intent(in) :: n
     if (contact%rows == n .and. allocated(contact%w)) return
     contact%rows = n
-    if (allocated(contact%w)) deallocate (contact%w, contact%q, contact%mu, contact%r, &
-      contact%row_of)
+    if (allocated(contact%w)) &
+        deallocate (contact%w, contact%q, contact%mu, contact%r, contact%row_of)
     allocate (contact%w(contact%d*n, contact%d*n), contact%q(contact%d, n), contact%mu(n))
     allocate (contact%r(contact%d, n), contact%row_of(n))
   end subroutine size_rows
@@ -153,8 +150,8 @@ contains
     do m = 1, 3
       do k = 1, 3
         candidate_flexibility = candidate_flexibility &
-          + weight_i(k)*weight_j(m)*dot_product(e_i, &
-          matmul(contact%flexibility(2*row(k) - 1:2*row(k), 2*column(m) - 1:2*column(m)), e_j))
+            + weight_i(k)*weight_j(m)*dot_product(e_i, matmul(contact%flexibility(2*row(k) &
+            - 1:2*row(k), 2*column(m) - 1:2*column(m)), e_j))
       end do
     end do
   end function candidate_flexibility
@@ -173,8 +170,7 @@ contains
   end subroutine stencil
 
   !> (n, t) components of the motion of a candidate's node relative to its place, from the
-  !> motions
-  !> of its three nodes: its rows of H times the motion.
+  !> motions of its three nodes: its rows of H times the motion.
   pure function relative_motion(c, node, a, b) result(motion)
     type(candidate_t), intent(in) :: c
     real(wp), intent(in) :: node(2), a(2), b(2)
@@ -193,7 +189,7 @@ contains
     real(wp) :: force(2)
     force = c%normal*r(1) + edge_tangent(c%normal)*r(2)
     associate (s => contact%block_row(c%node), a => contact%block_row(c%a), &
-      b => contact%block_row(c%b))
+        b => contact%block_row(c%b))
       f(:, s) = f(:, s) + force
       f(:, a) = f(:, a) - (one - c%xi)*force
       f(:, b) = f(:, b) - c%xi*force

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which nodes may touch soon. A search lists them and measures the distance of all others;
-!> while
-!> the bodies have moved less than that distance relative to each other, nobody needs to search.
+!> while the bodies have moved less than that distance relative to each other, nobody needs to
+!> search.
 module contact_search
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
@@ -18,10 +18,8 @@ contains
 
   !> True while no node off the list can touch before the end of the coming step:
   !> |c_A - c_B| + max|u - u_ref - c_A| + max|u - u_ref - c_B|, c = mean displacement of a side
-  !> since
-  !> the search, bounds the relative motion (triangle inequality); it must stay below the
-  !> smallest
-  !> distance found, with twice the motion of the last step kept for the coming one.
+  !> since the search, bounds the relative motion (triangle inequality); it must stay below the
+  !> smallest distance found, with twice the motion of the last step kept for the coming one.
   subroutine test_sleep(pair, u, asleep)
     type(pair_t), intent(inout) :: pair
     real(wp), intent(in), contiguous :: u(:, :)
@@ -83,8 +81,7 @@ contains
         distance = sqrt(sum(max(low - place, place - high, zero)**2))
         c%edge = 0
         if (distance <= reach) call nearest_edge(model, contact, pair, k, near, reach, u, du, &
-          cycle, &
-                                                 c, distance, status)
+            cycle, c, distance, status)
         if (failed(status)) return
         if (c%edge > 0 .and. distance <= reach) then
           c%pair = p
@@ -156,10 +153,9 @@ contains
   end subroutine near_edges
 
   !> The facing edge nearest to contactor node k; distance [L]. An edge whose projection holds
-  !> the
-  !> node wins over one whose end is as near.
-  subroutine nearest_edge(model, contact, pair, k, near, reach, u, du, cycle, c, distance, &
-    status)
+  !> the node wins over one whose end is as near.
+  subroutine nearest_edge(model, contact, pair, k, near, reach, u, du, cycle, c, &
+      distance, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(in) :: contact
     type(pair_t), intent(in) :: pair
@@ -183,9 +179,8 @@ contains
       beyond = max(zero, -xi, xi - one)
       on_edge = beyond <= end_tolerance
       associate (length => pair%obstacle%length(edge))
-        if (.not. listed(contact, node)) call check_crossing(model, pair, edge, node, u, du, &
-          gap, &
-                                                             cycle, status)
+        if (.not. listed(contact, node)) &
+            call check_crossing(model, pair, edge, node, u, du, gap, cycle, status)
         if (failed(status)) return
         if (gap < -contact%penetration_tolerance*length) then
           if (.not. on_edge) cycle
@@ -201,7 +196,7 @@ contains
     end do
     if (c%edge > 0 .and. .not. listed(contact, node)) then
       if (depth > contact%penetration_tolerance*pair%obstacle%length(c%edge)) &
-        call penetrated(model, node, depth, cycle, status)
+          call penetrated(model, node, depth, cycle, status)
     end if
     if (distance > reach .and. .not. all(near)) distance = reach*(one + epsilon(one))
   end subroutine nearest_edge
@@ -223,13 +218,13 @@ contains
     type(status_t), intent(inout) :: status
     if (cycle == 0) then
       call fail(status, status_deck, 'initial penetration: node '// &
-        to_text(model%node_id(node))// &
-                ' is '//to_text(depth)//' deep in the other body', hint='open the gap')
+          to_text(model%node_id(node))//' is '//to_text(depth)//' deep in the other body', &
+          hint='open the gap')
     else
       call fail(status, status_numerical, 'node '//to_text(model%node_id(node))//' is '// &
-        to_text(depth)// &
-                ' deep in the other body: it crossed its surface unseen within the step', &
-                hint='refine the step')
+          to_text(depth)// &
+          ' deep in the other body: it crossed its surface unseen within the step', &
+          hint='refine the step')
     end if
   end subroutine penetrated
 
@@ -252,8 +247,7 @@ contains
     end associate
     if (-gap <= 1.0e-9_wp*pair%obstacle%length(edge)) return
     call fail(status, status_numerical, 'node '//to_text(model%node_id(node))// &
-              ' crossed the other body''s surface unseen within the step', &
-                hint='refine the step')
+        ' crossed the other body''s surface unseen within the step', hint='refine the step')
   end subroutine check_crossing
 
   !> Point in polygon by the crossing number (Shimrat 1962).

@@ -16,8 +16,7 @@ module contact_setup
 contains
 
   !> Surfaces and sides of every contact card. The contactor is the side with the shorter mean
-  !> edge
-  !> (equal within 1e-6: SURFA), so that the order of the bodies does not matter.
+  !> edge (equal within 1e-6: SURFA), so that the order of the bodies does not matter.
   subroutine make_contact(model, cone, contact)
     type(model_t), intent(in) :: model
     type(cone_options_t), intent(in) :: cone

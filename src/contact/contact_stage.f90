@@ -18,8 +18,7 @@ module contact_stage
 contains
 
   !> Reactions for the free motion x_free (2, m) of the block; force (2, m) = H' r. acting is
-  !> false
-  !> when nothing touches, and then force is zero.
+  !> false when nothing touches, and then force is zero.
   subroutine solve_contact(contact, x_free, force, acting, status)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: x_free(:, :)
@@ -32,8 +31,7 @@ contains
     do k = 1, contact%rows
       associate (c => contact%candidate(contact%row_of(k)))
         motion = relative_motion(c, x_free(:, contact%block_row(c%node)), &
-                                 x_free(:, contact%block_row(c%a)), &
-                                   x_free(:, contact%block_row(c%b)))
+            x_free(:, contact%block_row(c%a)), x_free(:, contact%block_row(c%b)))
         contact%q(1, k) = c%gap + motion(1)
         if (contact%d > 1) contact%q(2, k) = motion(2)
         contact%r(:, k) = c%r(1:contact%d)
@@ -49,7 +47,7 @@ contains
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
-                    certificate, status)
+        certificate, status)
     contact%solves = contact%solves + 1
     contact%solves_since_row = contact%solves_since_row + 1
     contact%sweeps = contact%sweeps + certificate%sweeps
@@ -65,10 +63,8 @@ contains
   end subroutine solve_contact
 
   !> After the step: true gap and slip of every candidate from the motion x (2, m) of the block,
-  !> the
-  !> certificate of the reactions for that motion, penetration. Fails on what a scene must not
-  !> do
-  !> in silence: penetration beyond the tolerance, prescribed motions that overlap.
+  !> the certificate of the reactions for that motion, penetration. Fails on what a scene must
+  !> not do in silence: penetration beyond the tolerance, prescribed motions that overlap.
   subroutine settle_contact(model, contact, du, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -87,9 +83,9 @@ contains
         contact%pair(c%pair)%penetration = max(contact%pair(c%pair)%penetration, depth)
         contact%worst_penetration = max(contact%worst_penetration, depth/c%length)
         if (depth > contact%penetration_tolerance*c%length) &
-          call fail(status, status_numerical, &
-          'node '//to_text(model%node_id(c%node))//' penetrates by '//to_text(depth)// &
-          ', more than PENTOL times the edge', hint='lower TOL on *BIPACT_CONTACT')
+            call fail(status, status_numerical, 'node '//to_text(model%node_id(c%node))// &
+            ' penetrates by '//to_text(depth)//', more than PENTOL times the edge', &
+            hint='lower TOL on *BIPACT_CONTACT')
       end associate
     end do
     if (.not. acting) return
@@ -97,7 +93,7 @@ contains
       contact%work%u(:, k) = contact%candidate(contact%row_of(k))%u(1:contact%d)
     end do
     call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
-                 contact%cone%tolerance, certificate)
+        contact%cone%tolerance, certificate)
     call keep_worst(certificate, contact%worst)
     call keep_worst(certificate, contact%worst_since_row)
   end subroutine settle_contact

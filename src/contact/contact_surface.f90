@@ -23,8 +23,7 @@ module contact_surface
   public :: make_surface, edge_tangent, facing
 
   !> An edge faces another when their normals are opposite by at least this cosine (3 degrees
-  !> off a
-  !> right angle): only facing boundaries can meet from outside.
+  !> off a right angle): only facing boundaries can meet from outside.
   real(wp), parameter :: facing_cosine = -0.05_wp
 
 contains
@@ -132,8 +131,7 @@ contains
   end function edge_tangent
 
   !> True when node k of a surface has an edge that faces the normal of another body (a node
-  !> without
-  !> edges, of a bare node set, faces everything).
+  !> without edges, of a bare node set, faces everything).
   pure logical function facing(surface, k, normal)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: k

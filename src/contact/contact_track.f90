@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Where a contactor node stands on the obstacle: edge, place, normal, gap. Frames are those of
-!> the
-!> reference geometry (small displacements), the place on the edge is that of the moment.
+!> the reference geometry (small displacements), the place on the edge is that of the moment.
 module contact_track
   use base_kinds, only: wp, zero, one
   use contact_surface, only: surface_t, edge_tangent
@@ -37,14 +36,13 @@ contains
     t = edge_tangent(surface%normal(:, edge))
     associate (a => surface%end_node(1, edge), b => surface%end_node(2, edge))
       span = surface%length(edge) + dot_product(t, u(:, b) - u(:, a))
-      place_on_edge = (dot_product(t, x(:, node) - x(:, a)) &
-        + dot_product(t, u(:, node) - u(:, a)))/span
+      place_on_edge = &
+          (dot_product(t, x(:, node) - x(:, a)) + dot_product(t, u(:, node) - u(:, a)))/span
     end associate
   end function place_on_edge
 
   !> Moves a candidate to the edge that its node faces now; changed tells whether its frame or
-  !> place
-  !> differs from before.
+  !> place differs from before.
   pure subroutine update_candidate(pair, x, u, c, changed)
     type(pair_t), intent(in) :: pair
     real(wp), intent(in) :: x(:, :), u(:, :)
@@ -67,7 +65,7 @@ contains
       end if
       other = place_on_edge(pair%obstacle, next, x, u, c%node)
       if (next == came_from .or. (side == 1 .and. other > one) &
-        .or. (side == 2 .and. other < zero)) then
+          .or. (side == 2 .and. other < zero)) then
         normal = normal + pair%obstacle%normal(:, next)
         normal = normal/sqrt(sum(normal**2))
         exit
@@ -93,10 +91,9 @@ contains
   pure real(wp) function candidate_gap(c, x, u)
     type(candidate_t), intent(in) :: c
     real(wp), intent(in) :: x(:, :), u(:, :)
-    candidate_gap = dot_product(c%normal, (x(:, c%node) - x(:, c%a)) &
-      - c%xi*(x(:, c%b) - x(:, c%a))) &
-                    + dot_product(c%normal, (u(:, c%node) - u(:, c%a)) &
-                      - c%xi*(u(:, c%b) - u(:, c%a)))
+    candidate_gap = dot_product(c%normal, &
+        (x(:, c%node) - x(:, c%a)) - c%xi*(x(:, c%b) - x(:, c%a))) &
+        + dot_product(c%normal, (u(:, c%node) - u(:, c%a)) - c%xi*(u(:, c%b) - u(:, c%a)))
   end function candidate_gap
 
 end module contact_track

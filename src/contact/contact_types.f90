@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Contact between boundaries: pairs of surfaces, candidates (a node near an edge) and the block
-!> of
-!> nodes they involve.
+!> of nodes they involve.
 module contact_types
   use base_kinds, only: wp, zero
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
@@ -21,8 +20,7 @@ module contact_types
     type(surface_t) :: contactor
     type(surface_t) :: obstacle
     !> Search: displacements when it was last done, and the smallest distance of a node that is
-    !> not
-    !> on the list. No such node can touch while the bodies have moved less than that.
+    !> not on the list. No such node can touch while the bodies have moved less than that.
     real(wp), allocatable :: contactor_reference(:, :), obstacle_reference(:, :)
     real(wp) :: safe_distance = -1.0_wp    !< [L]; < 0: never searched
     real(wp) :: moved = zero               !< bound of the relative motion since the search [L]

@@ -58,8 +58,8 @@ contains
     end if
     do p = 1, size(contact%pair)
       associate (pair => contact%pair(p))
-        pair%impulse = pair%impulse + h*(weight_before*pair%force_before &
-          + weight_now*pair%force)
+        pair%impulse = pair%impulse &
+            + h*(weight_before*pair%force_before + weight_now*pair%force)
       end associate
     end do
   end subroutine add_contact_step
@@ -86,8 +86,7 @@ contains
   end subroutine add_force
 
   !> Reaction at the end of the step only: r.(H x) = - mu r_n |u_t| - r_n g0 + e with the
-  !> bi-potential
-  !> residual e; each term by its own formula.
+  !> bi-potential residual e; each term by its own formula.
   subroutine add_implicit_work(contact, c, work)
     type(contact_t), intent(inout) :: contact
     type(candidate_t), intent(in) :: c
@@ -101,8 +100,8 @@ contains
       pair%normal_work = pair%normal_work + normal
       work%friction = work%friction + friction
       work%normal = work%normal + normal
-      work%unsolved = work%unsolved + bipotential_residual(pair%mu, c%r(1:contact%d), &
-        c%u(1:contact%d))
+      work%unsolved = work%unsolved &
+          + bipotential_residual(pair%mu, c%r(1:contact%d), c%u(1:contact%d))
       work%allowed_growth = work%allowed_growth + max(zero, -normal)
     end associate
   end subroutine add_implicit_work

@@ -29,7 +29,7 @@ contains
     end if
     deck%blocks = deck%blocks + 1
     deck%block(deck%blocks) = block_t(keyword=row, long=long, first=deck%records + 1, &
-                                      last=deck%records, written=name)
+        last=deck%records, written=name)
   end subroutine start_block
 
   !> Reads all cards of the block just opened; on exit the cursor is at the next keyword.
@@ -48,7 +48,7 @@ contains
     count = 0
     do while (more)
       associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last), &
-        k => deck%table%keyword(row))
+          k => deck%table%keyword(row))
         if (len(line) > 0) then
           if (line(1:1) == '*') exit
         end if
@@ -91,12 +91,11 @@ contains
     logical, intent(in) :: more
     associate (k => deck%table%keyword(row))
       if (count < k%required .or. (k%repeat_from > 0 .and. card < k%cards .and. count > 0 &
-        .and. card >= k%repeat_from)) &
-        call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-        to_text(cursor%line + merge(0, 1, more)), 0, 0, '*'//trim(k%name)// &
-          ' ends too early: expected '// &
-        to_text(max(k%required, k%cards))//' cards, found '//to_text(count), '', &
-        'a card may be blank, but it must be there'))
+          .and. card >= k%repeat_from)) &
+          call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
+          to_text(cursor%line + merge(0, 1, more)), 0, 0, '*'//trim(k%name)// &
+          ' ends too early: expected '//to_text(max(k%required, k%cards))//' cards, found '// &
+          to_text(count), '', 'a card may be blank, but it must be there'))
     end associate
   end subroutine check_count
 
@@ -105,10 +104,9 @@ contains
     type(cursor_t), intent(in) :: cursor
     integer, intent(in) :: row
     call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-      to_text(cursor%line), 0, 0, &
-      '*'//trim(deck%table%keyword(row)%name)//': one card too many', &
-      deck%file(cursor%file)%text(cursor%first:cursor%last), &
-      'this keyword has at most '//to_text(deck%table%keyword(row)%cards)//' cards'))
+        to_text(cursor%line), 0, 0, '*'//trim(deck%table%keyword(row)%name)// &
+        ': one card too many', deck%file(cursor%file)%text(cursor%first:cursor%last), &
+        'this keyword has at most '//to_text(deck%table%keyword(row)%cards)//' cards'))
   end subroutine too_many_cards
 
   !> Adds a record and converts its fields.
@@ -122,13 +120,13 @@ contains
     fields = deck%table%keyword(row)%card(card)%fields
     call add_record(deck, cursor, card, fields)
     associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last), &
-               c => deck%table%keyword(row)%card(card), long => deck%block(deck%blocks)%long)
+        c => deck%table%keyword(row)%card(card), long => deck%block(deck%blocks)%long)
       comma = index(line, ',') > 0 .and. c%field(1)%kind /= 'T'
       call check_line(deck, line, c, comma, long)
       do f = 1, fields
         call slice_field(line, c%field(f), f, comma, long, first, last)
         call parse_field(deck, line(min(first, len(line) + 1):min(last, len(line))), &
-          c%field(f), f, parameters)
+            c%field(f), f, parameters)
       end do
     end associate
   end subroutine parse_card
@@ -154,13 +152,12 @@ contains
     end if
     deck%records = deck%records + 1
     deck%record(deck%records) = record_t(block=deck%blocks, card=card, start=deck%values, &
-      file=cursor%file, line=cursor%line, first=cursor%first, last=cursor%last)
+        file=cursor%file, line=cursor%line, first=cursor%first, last=cursor%last)
     deck%values = deck%values + fields
   end subroutine add_record
 
   !> What concerns the line as a whole: tabs, bytes that are no ASCII, text beyond the last
-  !> field,
-  !> numbers that straddle a border between two fields.
+  !> field, numbers that straddle a border between two fields.
   subroutine check_line(deck, line, card, comma, long)
     type(deck_t), intent(inout) :: deck
     character(*), intent(in) :: line
@@ -171,7 +168,7 @@ contains
     do k = 1, len(line)
       if (line(k:k) >= ' ' .and. line(k:k) <= '~') cycle
       call deck%complain(deck%records, '', trim(merge('a tab in a data card              ', &
-        'a byte that is not ASCII in a card', line(k:k) == achar(9))), &
+          'a byte that is not ASCII in a card', line(k:k) == achar(9))), &
           'expand tabs to blanks; use plain ASCII')
       return
     end do
@@ -179,20 +176,19 @@ contains
       commas = count([(line(k:k) == ',', k=1, len(line))])
       if (commas >= card%fields) then
         if (len_trim(line(index(line, ',', back=.true.) + 1:)) > 0 .or. commas > card%fields) &
-          call deck%complain(deck%records, '', 'expected at most '//to_text(card%fields)// &
-                             ' comma-separated fields, found '//to_text(commas + 1))
+            call deck%complain(deck%records, '', 'expected at most '//to_text(card%fields)// &
+            ' comma-separated fields, found '//to_text(commas + 1))
       end if
       return
     end if
     last = card%field(card%fields)%first + card%field(card%fields)%width - 1
     if (long) last = 20*card%fields
     if (len_trim(line) > last) call deck%complain(deck%records, '', 'text beyond column '// &
-      to_text(last)// &
-      ', where the last field ends', 'a field may have slipped to the right')
+        to_text(last)//', where the last field ends', 'a field may have slipped to the right')
     do f = 1, card%fields - 1
       last = merge(20*f, card%field(f + 1)%first - 1, long)
-      if (last < len(line)) call check_border(deck, line, card%field(f), card%field(f + 1), &
-        last, long)
+      if (last < len(line)) &
+          call check_border(deck, line, card%field(f), card%field(f + 1), last, long)
     end do
   end subroutine check_line
 
@@ -212,10 +208,9 @@ contains
       if (index(line(border + 1:border + right_width), ' ') == 0) return
     end if
     call deck%complain(deck%records, trim(right%name), &
-      'a value crosses the border between columns '// &
-      to_text(border)//' and '//to_text(border + 1), 'fields '//trim(left%name)//' and '// &
-        trim(right%name)// &
-      ' meet there; the card looks shifted')
+        'a value crosses the border between columns '//to_text(border)//' and '// &
+        to_text(border + 1), 'fields '//trim(left%name)//' and '//trim(right%name)// &
+        ' meet there; the card looks shifted')
   end subroutine check_border
 
   !> Converts one field: default where blank, parameters replaced, range and class checked.
@@ -233,23 +228,22 @@ contains
     text = trim(adjustl(raw))
     given = len(text) > 0
     if (given .and. field%kind /= 'T') then
-      if (scan(text(1:min(2, len(text))), '&') > 0) call substitute(deck, field, parameters, &
-        text)
+      if (scan(text(1:min(2, len(text))), '&') > 0) &
+          call substitute(deck, field, parameters, text)
       if (len(text) == 0) return
     end if
     deck%given(k) = given
     deck%value(k) = 0.0_wp
     if (.not. given) then
       if (field%required) call deck%complain(deck%records, trim(field%name), 'expected '// &
-        trim(kind_text(field%kind))//', found nothing', 'this field has no default')
+          trim(kind_text(field%kind))//', found nothing', 'this field has no default')
       text = trim(field%default)
       if (len(text) == 0) return
     end if
     call convert(deck, text, field, value, ok)
     if (.not. ok) then
       call deck%complain(deck%records, trim(field%name), 'expected '// &
-        trim(kind_text(field%kind))// &
-                         ', found "'//raw//'"', embedded_hint(text))
+          trim(kind_text(field%kind))//', found "'//raw//'"', embedded_hint(text))
       return
     end if
     if (field%zero_is_default .and. given .and. .not. abs(value) > 0.0_wp) then
@@ -265,7 +259,7 @@ contains
     character(:), allocatable :: hint
     hint = ''
     if (index(text, ' ') > 0) &
-      hint = 'a blank inside a number: a field may have slipped across its border'
+        hint = 'a blank inside a number: a field may have slipped across its border'
   end function embedded_hint
 
   pure function kind_text(kind) result(name)
@@ -331,8 +325,8 @@ contains
     mark = index(text, '&')
     row = find_parameter(parameters, text(mark + 1:))
     if (row == 0) then
-      call deck%complain(deck%records, trim(field%name), &
-        'undefined parameter "'//text(mark:)//'"', 'define it with *PARAMETER before its use')
+      call deck%complain(deck%records, trim(field%name), 'undefined parameter "'// &
+          text(mark:)//'"', 'define it with *PARAMETER before its use')
       text = ''
     else if (mark == 2 .and. text(1:1) == '-') then
       value = trim(parameters%text(row))
@@ -362,8 +356,7 @@ contains
       if (field%low_open) ok = ok .and. value > field%low
       if (field%high_open) ok = ok .and. value < field%high
       if (.not. ok) call deck%complain(deck%records, trim(field%name), 'expected '// &
-        range_text(field)// &
-                                       ', found "'//text//'"')
+          range_text(field)//', found "'//text//'"')
     end if
     if (field%class /= field_fixed .and. field%class /= field_tuning) return
     ok = upper(text) == field%default
@@ -375,13 +368,12 @@ contains
     if (ok) return
     if (field%class == field_tuning) then
       call add_note(deck%problems, '*'// &
-        trim(deck%table%keyword(deck%block(deck%blocks)%keyword)%name)//' '// &
-          trim(field%name)// &
-        ' tunes another method and has no effect')
+          trim(deck%table%keyword(deck%block(deck%blocks)%keyword)%name)//' '// &
+          trim(field%name)//' tunes another method and has no effect')
     else
       call deck%complain(deck%records, trim(field%name), 'expected blank or the default "'// &
-        trim(field%default)//'", found "'//text//'"', &
-        'what this field asks for is not available in this version')
+          trim(field%default)//'", found "'//text//'"', &
+          'what this field asks for is not available in this version')
     end if
   end subroutine check_value
 
@@ -389,11 +381,11 @@ contains
     type(field_t), intent(in) :: field
     character(:), allocatable :: text
     text = trim(kind_text(field%kind))
-    if (field%low > -huge(1.0_wp)) text = text// &
-      trim(merge(' > ', ' >=', field%low_open))//' '//short(field%low)
+    if (field%low > -huge(1.0_wp)) text = text//trim(merge(' > ', ' >=', field%low_open))// &
+        ' '//short(field%low)
     if (field%low > -huge(1.0_wp) .and. field%high < huge(1.0_wp)) text = text//' and'
-    if (field%high < huge(1.0_wp)) text = text// &
-      trim(merge(' < ', ' <=', field%high_open))//' '//short(field%high)
+    if (field%high < huge(1.0_wp)) text = text//trim(merge(' < ', ' <=', field%high_open))// &
+        ' '//short(field%high)
   end function range_text
 
   pure function short(number) result(text)

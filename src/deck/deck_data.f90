@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The deck as read: blocks of cards with their values, and where each card stands, so that a
-!> later
-!> check can still point at its line. Values of all cards lie in one array; ids are exact in it.
+!> later check can still point at its line. Values of all cards lie in one array; ids are exact
+!> in it.
 module deck_data
   use base_kinds, only: wp
   use base_strings, only: to_text
@@ -66,7 +66,7 @@ contains
     character(*), intent(in) :: name
     associate (r => deck%record(record))
       locate = r%start &
-        + field_index(deck%table%keyword(deck%block(r%block)%keyword)%card(r%card), name)
+          + field_index(deck%table%keyword(deck%block(r%block)%keyword)%card(r%card), name)
     end associate
   end function locate
 
@@ -143,18 +143,19 @@ contains
     if (present(hint)) advice = hint
     associate (r => this%record(record))
       associate (keyword => this%table%keyword(this%block(r%block)%keyword), &
-                 line => this%file(r%file)%text(r%first:r%last))
+          line => this%file(r%file)%text(r%first:r%last))
         head = '*'//trim(keyword%name)//' card '//to_text(r%card)
         f = field_index(keyword%card(r%card), name)
         if (f > 0) then
           head = head//', field '//name
           call slice_field(line, keyword%card(r%card)%field(f), f, index(line, ',') > 0, &
-                           this%block(r%block)%long, first, last)
+              this%block(r%block)%long, first, last)
         end if
         if (this%file(r%file)%parent > 0) advice = join_hint(advice, 'included from '// &
-          this%file(this%file(r%file)%parent)%path//':'//to_text(this%file(r%file)%parent_line))
-        call add_problem(this%problems, render(this%place(record), first, last, &
-                                               head//': '//what, line, advice))
+            this%file(this%file(r%file)%parent)%path//':'// &
+            to_text(this%file(r%file)%parent_line))
+        call add_problem(this%problems, &
+            render(this%place(record), first, last, head//': '//what, line, advice))
       end associate
     end associate
   end subroutine deck_complain

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The deck as understood, again as a deck: includes and parameters resolved, blanks filled with
-!> the
-!> defaults. A value that was written as a number keeps its own text, so it reads back equal.
+!> the defaults. A value that was written as a number keeps its own text, so it reads back
+!> equal.
 module deck_echo
   use base_kinds, only: wp
   use base_strings, only: to_text
@@ -27,7 +27,7 @@ contains
         if (block%title > 0) write (unit, '(a)') trim(deck%text(block%title))
         do r = block%first, block%last
           call write_card(deck, unit, r, &
-            deck%table%keyword(block%keyword)%card(deck%record(r)%card))
+              deck%table%keyword(block%keyword)%card(deck%record(r)%card))
         end do
       end associate
     end do
@@ -88,7 +88,7 @@ contains
       plain = len_trim(card%field(f)%default) == 0
       if (plain .or. card%field(f)%first > len(line)) cycle
       plain = line(card%field(f)%first:min(card%field(f)%first + card%field(f)%width - 1, &
-        len(line))) /= ' '
+          len(line))) /= ' '
     end do
   end function plain
 

@@ -3,8 +3,7 @@
 module deck_help
   use base_strings, only: to_text
   use deck_table, only: table_t, keyword_t, field_t, keyword_used, field_honoured, &
-    field_tuning, &
-    field_fixed, field_ignored
+      field_tuning, field_fixed, field_ignored
   implicit none
   private
   public :: write_usage, write_keywords
@@ -66,7 +65,7 @@ contains
     if (keyword%may_id) text = text//' `_ID` adds a card with id and heading first.'
     if (keyword%once) text = text//' At most once per deck.'
     if (keyword%repeat_from > 0) text = text//' Cards from '//to_text(keyword%repeat_from)// &
-                                        ' on repeat.'
+        ' on repeat.'
   end function options
 
   subroutine write_card(keyword, c, unit)
@@ -74,16 +73,16 @@ contains
     integer, intent(in) :: c, unit
     integer :: f
     write (unit, '(a)') 'Card '//to_text(c)//trim(merge(' (optional)', '           ', &
-      c > keyword%required .and. keyword%repeat_from == 0))//':'
+        c > keyword%required .and. keyword%repeat_from == 0))//':'
     write (unit, '(a)') ''
     write (unit, '(a)') '| field | columns | type | units | default | range | use | meaning |'
     write (unit, '(a)') '|---|---|---|---|---|---|---|---|'
     do f = 1, keyword%card(c)%fields
       associate (x => keyword%card(c)%field(f))
         write (unit, '(a)') '| '//trim(x%name)//' | '//to_text(x%first)//'-'// &
-          to_text(x%first + x%width - 1)//' | '//x%kind//' | '//trim(x%units)//' | '// &
-          trim(default_text(x))//' | '//range_text(x)//' | '//trim(use_text(x%class))//' | '// &
-          trim(x%help)//' |'
+            to_text(x%first + x%width - 1)//' | '//x%kind//' | '//trim(x%units)//' | '// &
+            trim(default_text(x))//' | '//range_text(x)//' | '//trim(use_text(x%class))// &
+            ' | '//trim(x%help)//' |'
       end associate
     end do
     write (unit, '(a)') ''
@@ -102,10 +101,9 @@ contains
     character(:), allocatable :: text
     text = ''
     if (field%low > -huge(field%low)) text = trim(merge('> ', '>=', field%low_open))//' '// &
-      to_text(field%low)
+        to_text(field%low)
     if (field%high < huge(field%high)) text = text//' '// &
-      trim(merge('< ', '<=', field%high_open))// &
-      ' '//to_text(field%high)
+        trim(merge('< ', '<=', field%high_open))//' '//to_text(field%high)
   end function range_text
 
   pure function use_text(class) result(text)

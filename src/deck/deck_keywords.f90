@@ -3,7 +3,7 @@
 !> (as dimensions), defaults and ranges.
 module deck_keywords
   use deck_table, only: table_t, add_keyword, add_card, add_field, keyword_skipped, &
-    keyword_refused
+      keyword_refused
   use deck_keywords_own, only: add_own_keywords
   implicit none
   private
@@ -40,7 +40,7 @@ contains
     call add_field(table, 'ENDMAS', 'R10 note')
     call add_field(table, 'NOSOL', 'I10 fixed')
     call add_keyword(table, 'CONTROL_IMPLICIT_GENERAL', 'implicit integration and its step', &
-                     required=1, once=.true.)
+        required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'IMFLAG', 'I10 req >=0', '1 = implicit; nothing else is available')
     call add_field(table, 'DT0', 'R10 req [T] >0', 'time step')
@@ -51,21 +51,20 @@ contains
     call add_field(table, 'FORM', 'I10 fixed')
     call add_field(table, 'ZERO_V', 'I10 fixed')
     call add_keyword(table, 'CONTROL_IMPLICIT_DYNAMICS', &
-      'inertia, and gamma and beta of NEWMARK', &
-                     required=1, once=.true.)
+        'inertia, and gamma and beta of NEWMARK', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'IMASS', 'I10 =0 >=0 <=1', &
-      '1 = with inertia; 0 (static) is not available')
+        '1 = with inertia; 0 (static) is not available')
     call add_field(table, 'GAMMA', 'R10 =0.5 >=0.5 <=1', 'gamma of NEWMARK')
     call add_field(table, 'BETA', 'R10 =0.25 >=0 <=1', &
-      'beta of NEWMARK, at least (gamma+1/2)^2/4')
+        'beta of NEWMARK, at least (gamma+1/2)^2/4')
     call add_field(table, 'TDYBIR', 'R10 fixed [T]')
     call add_field(table, 'TDYDTH', 'R10 fixed [T] =1.0E28')
     call add_field(table, 'TDYBUR', 'R10 fixed [T] =1.0E28')
     call add_field(table, 'IRATE', 'I10 fixed')
     call add_field(table, 'ALPHA', 'R10 fixed')
     call add_keyword(table, 'CONTROL_IMPLICIT_SOLUTION', 'linear or not', required=1, &
-      once=.true.)
+        once=.true.)
     call add_card(table)
     call add_field(table, 'NSOLVR', 'I10 =1 fixed', '1 = linear; 12 is not available')
     call add_field(table, 'ILIMIT', 'I10 note')
@@ -112,8 +111,7 @@ contains
     call add_field(table, 'ADPOPT', 'I10 fixed')
     call add_field(table, 'TMID', 'I10 fixed')
     call add_keyword(table, 'SECTION_SHELL', 'plane strain or stress, thickness', &
-      title=.true., &
-                     repeat_from=1, required=1)
+        title=.true., repeat_from=1, required=1)
     call add_card(table)
     call add_field(table, 'SECID', 'I10 req >0', 'section number')
     call add_field(table, 'ELFORM', 'I10 =2', '12 plane stress, 13 plane strain')
@@ -183,14 +181,13 @@ contains
     call add_card(table)
     call add_velocity(table, '10')
     call add_keyword(table, 'INITIAL_VELOCITY_NODE', 'initial velocities of nodes', &
-      repeat_from=1)
+        repeat_from=1)
     call add_card(table)
     call add_field(table, 'NID', 'I10 req >0', 'node')
     call add_velocity(table, '10')
     call add_field(table, 'ICID', 'I10 fixed')
     call add_keyword(table, 'INITIAL_VELOCITY_GENERATION', &
-      'initial velocity of parts or nodes', &
-                     required=2)
+        'initial velocity of parts or nodes', required=2)
     call add_card(table)
     call add_field(table, 'ID', 'I10 =0 >=0', 'part set, part or node set by STYP; 0 = all')
     call add_field(table, 'STYP', 'I10 =1 >=1 <=3', '1 part set, 2 part, 3 node set')
@@ -216,7 +213,7 @@ contains
     call add_body_load(table, 'LOAD_BODY_X')
     call add_body_load(table, 'LOAD_BODY_Y')
     call add_keyword(table, 'DEFINE_CURVE', 'a function of time by points', title=.true., &
-                     required=2, repeat_from=2)
+        required=2, repeat_from=2)
     call add_card(table)
     call add_field(table, 'LCID', 'I10 req >0', 'curve number')
     call add_field(table, 'SIDR', 'I10 fixed')
@@ -275,8 +272,8 @@ contains
   subroutine add_body_load(table, name)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name
-    call add_keyword(table, name, 'body load: acceleration = - SF * curve, on all parts', &
-      required=1)
+    call add_keyword(table, name, &
+        'body load: acceleration = - SF * curve, on all parts', required=1)
     call add_card(table)
     call add_field(table, 'LCID', 'I10 req >0', 'curve of the base acceleration [L/T2]')
     call add_field(table, 'SF', 'R10 =1.0', 'factor of the curve')
@@ -290,8 +287,7 @@ contains
   subroutine add_contact(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', &
-      'contact of two bodies', &
-                     id=.true., required=1)
+        'contact of two bodies', id=.true., required=1)
     call add_card(table)
     call add_field(table, 'SURFA', 'I10 req', 'part set; < 0: node set')
     call add_field(table, 'SURFB', 'I10 req', 'part set; < 0: node set')
@@ -332,22 +328,21 @@ contains
     integer :: k, m
     do k = 1, 5
       call add_keyword(table, 'DATABASE_'//trim(names(k)), 'table '//trim(names(k)), &
-        required=1, &
-                       once=.true.)
+          required=1, once=.true.)
       call add_card(table)
       call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
       call add_field(table, 'BINARY', 'I10 note')
       call add_field(table, 'LCUR', 'I10 fixed')
       call add_field(table, 'IOOPT', 'I10 note')
     end do
-    call add_keyword(table, 'DATABASE_HISTORY_NODE', 'nodes of NODOUT', repeat_from=1, &
-      required=1)
+    call add_keyword(table, 'DATABASE_HISTORY_NODE', 'nodes of NODOUT', &
+        repeat_from=1, required=1)
     call add_card(table)
     do m = 1, 8
       call add_field(table, 'ID'//achar(48 + m), 'I10 =0 >=0', 'node')
     end do
-    call add_keyword(table, 'DATABASE_HISTORY_NODE_SET', 'node sets of NODOUT', repeat_from=1, &
-                     required=1)
+    call add_keyword(table, 'DATABASE_HISTORY_NODE_SET', 'node sets of NODOUT', &
+        repeat_from=1, required=1)
     call add_card(table)
     do m = 1, 8
       call add_field(table, 'ID'//achar(48 + m), 'I10 =0 >=0', 'node set')
@@ -381,7 +376,7 @@ contains
     integer :: k
     do k = 1, size(names)
       call add_keyword(table, trim(names(k)), 'not available in this version', &
-                       class=keyword_refused)
+          class=keyword_refused)
     end do
   end subroutine add_refused
 

@@ -16,7 +16,7 @@ contains
     call add_field(table, 'SCHEME', 'W10 =THETA', 'THETA or NEWMARK')
     call add_field(table, 'THETA', 'R10 =0.5 >=0.5 <=1', 'weight of the velocity at the end')
     call add_field(table, 'XI', 'R10 >=0.5 <=1', &
-      'weight of the forces at the end; blank = THETA')
+        'weight of the forces at the end; blank = THETA')
     call add_field(table, 'REST', 'R10 fixed')
     call add_field(table, 'RHOINF', 'R10 fixed')
     call add_field(table, 'RULE', 'W10 fixed')
@@ -28,7 +28,7 @@ contains
     call add_keyword(table, 'BIPACT_CONTACT', 'contact solver', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'SOLVER', 'W10 =AUTO', &
-      'AUTO: Gauss-Seidel and direct solves; GS: alone')
+        'AUTO: Gauss-Seidel and direct solves; GS: alone')
     call add_field(table, 'TOL', 'R10 =1.0E-10 >0 <=0.01', 'of the certificate')
     call add_field(table, 'MAXIT', 'I10 =10000 >0', 'most sweeps of a solve')
     call add_field(table, 'RHO', 'R10 =1.0 >0 <2', 'factor on 1/lmax(W_aa)')
@@ -36,12 +36,12 @@ contains
     call add_field(table, 'LTOL', 'R10 =0.01 >0 <=1', 'looseness of the local solves')
     call add_field(table, 'LMAXIT', 'I10 =50 >0', 'most local iterations')
     call add_field(table, 'WARM', 'I10 =1 >=0 <=1', &
-      '1 = start from the reactions of the last step')
+        '1 = start from the reactions of the last step')
     call add_card(table)
     call add_field(table, 'WSTORE', 'W10 =AUTO', 'AUTO or DENSE')
     call add_field(table, 'FRAME', 'W10 =START fixed', 'frames of contact: start of the step')
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
-      'accepted penetration / segment length')
+        'accepted penetration / segment length')
     call add_field(table, 'ROTWARN', 'R10 =5.0 >0', 'degrees of rotation that are warned of')
     call add_field(table, 'DFIRST', 'I10 fixed')
     call add_field(table, 'DLAST', 'I10 fixed')
@@ -64,13 +64,13 @@ contains
     call add_card(table)
     call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
     call add_keyword(table, 'BIPACT_PAIR', 'not available in this version', &
-      class=keyword_refused)
+        class=keyword_refused)
     call add_keyword(table, 'BIPACT_STEP', 'not available in this version', &
-      class=keyword_refused)
+        class=keyword_refused)
     call add_keyword(table, 'BIPACT_FIELD', 'not available in this version', &
-      class=keyword_refused)
+        class=keyword_refused)
     call add_keyword(table, 'BIPACT_RESTART', 'not available in this version', &
-                     class=keyword_refused)
+        class=keyword_refused)
   end subroutine add_own_keywords
 
 end module deck_keywords_own

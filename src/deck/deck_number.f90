@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Text of one field to a number, strictly: the characters are judged before anything is
-!> converted,
-!> because the run-time library takes "1 0", "nan" and "1/2" without complaint.
+!> converted, because the run-time library takes "1 0", "nan" and "1/2" without complaint.
 module deck_number
   use base_kinds, only: wp, i8
   implicit none
@@ -37,9 +36,8 @@ contains
   end subroutine scan_integer
 
   !> Digits with at most one point; exponent by E, e, D, d or a bare sign ("1.0-3"). Numbers of
-  !> up to
-  !> 15 digits and small exponents are converted by one exactly rounded operation, others by
-  !> `read`.
+  !> up to 15 digits and small exponents are converted by one exactly rounded operation, others
+  !> by `read`.
   pure subroutine scan_real(text, value, ok)
     character(*), intent(in) :: text
     real(wp), intent(out) :: value

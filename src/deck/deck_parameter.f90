@@ -41,8 +41,7 @@ contains
   end function find_parameter
 
   !> Reads the cards of *PARAMETER: four pairs a card, each 10 columns name (type letter first)
-  !> and
-  !> 10 columns value; or comma form.
+  !> and 10 columns value; or comma form.
   subroutine read_parameters(deck, cursor, parameters, overrides, more)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(inout) :: cursor
@@ -62,7 +61,7 @@ contains
           do first = 1, max(len_trim(line), 1), pair_width
             if (first > 4*pair_width) exit
             call define(deck, cursor, pad(line, first), pad(line, first + 10), first, &
-              parameters, overrides)
+                parameters, overrides)
           end do
         end if
       end associate
@@ -83,9 +82,8 @@ contains
       comma = index(line(first:)//',', ',') + first - 1
       next = index(line(min(comma + 1, len(line) + 1):)//',', ',') + comma
       name = line(first:comma - 1)
-      call define(deck, cursor, name, line(min(comma + 1, len(line) &
-        + 1):min(next - 1, len(line))), first, &
-                  parameters, overrides)
+      call define(deck, cursor, name, line(min(comma + 1, len(line) + 1):min(next - 1, &
+          len(line))), first, parameters, overrides)
       first = next + 1
     end do
   end subroutine read_comma_pairs
@@ -128,7 +126,7 @@ contains
       what = 'field NAME: expected a name of 1 to 9 characters, found "'//trim(left)//'"'
     else if (find_parameter(parameters, name) > 0) then
       what = 'parameter '//name//' is defined twice; the first is in line '// &
-             to_text(parameters%line(find_parameter(parameters, name)))
+          to_text(parameters%line(find_parameter(parameters, name)))
     else if (.not. converts(kind, value)) then
       what = 'field VALUE: expected '//trim(kind_name(kind))//', found "'//pair_value//'"'
     end if
@@ -179,14 +177,12 @@ contains
     character(*), intent(in) :: what
     character(:), allocatable :: hint
     hint = 'each name/value pair is 20 columns wide: the type letter R, I or C in the '// &
-           'first, the value in its last ten'
+        'first, the value in its last ten'
     if (scan(what(max(1, len(what) - 1):), 'RICric') > 0 .and. what(len(what):) == '"') &
-      hint = hint//'; this pair looks one column short'
+        hint = hint//'; this pair looks one column short'
     call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-      to_text(cursor%line), column, &
-      column + pair_width - 1, '*PARAMETER: '//what, &
-      deck%file(cursor%file)%text(cursor%first:cursor%last), &
-      hint))
+        to_text(cursor%line), column, column + pair_width - 1, '*PARAMETER: '//what, &
+        deck%file(cursor%file)%text(cursor%first:cursor%last), hint))
   end subroutine complain
 
   !> An override of a name that no *PARAMETER defines is a problem, never ignored.
@@ -204,9 +200,8 @@ contains
     do k = 1, size(overrides)
       if (overrides(k)%used) cycle
       call add_problem(problems, '-D '//trim(overrides(k)%name)//'='// &
-        trim(overrides(k)%value)// &
-        ': the deck has no such parameter'//new_line('a')//'    hint: its parameters are:'// &
-          known)
+          trim(overrides(k)%value)//': the deck has no such parameter'//new_line('a')// &
+          '    hint: its parameters are:'//known)
     end do
   end subroutine report_unused_overrides
 

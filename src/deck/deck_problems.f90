@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is wrong with a deck, collected so that one pass shows up to twenty problems, and what
-!> was
-!> accepted with a word (notes, warnings).
+!> was accepted with a word (notes, warnings).
 module deck_problems
   use base_strings, only: to_text
   implicit none
@@ -88,8 +87,7 @@ contains
     if (first > 0) text = text//', columns '//to_text(first)//'-'//to_text(last)
     text = text//': '//what
     if (len(card) > 0) text = text//end_line//indent//card
-    if (len(card) > 0 .and. first > 0) &
-      text = text//end_line//indent//repeat(' ', first - 1)// &
+    if (len(card) > 0 .and. first > 0) text = text//end_line//indent//repeat(' ', first - 1)// &
         repeat('^', max(1, last - first + 1))
     if (len(hint) > 0) text = text//end_line//indent//'hint: '//hint
   end function render

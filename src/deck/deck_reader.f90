@@ -32,8 +32,8 @@ contains
     call load_file(path, deck%file(1), status)
     if (failed(status)) return
     call read_file(deck, 1, 1, parameters, overrides, ended)
-    if (.not. ended) call add_note(deck%problems, path// &
-      ': no *END; the file was read to its end')
+    if (.not. ended) &
+        call add_note(deck%problems, path//': no *END; the file was read to its end')
     call report_unused_overrides(overrides, parameters, deck%problems)
   end subroutine read_deck
 
@@ -96,8 +96,7 @@ contains
     type(cursor_t), intent(in) :: cursor
     associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last))
       call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-        to_text(cursor%line), 0, 0, &
-        'a card that belongs to no keyword', line, &
+          to_text(cursor%line), 0, 0, 'a card that belongs to no keyword', line, &
           'a keyword starts with * in column 1; a comment with $'))
     end associate
   end subroutine stray_card
@@ -119,7 +118,7 @@ contains
       select case (deck%table%keyword(row)%class)
       case (keyword_skipped)
         call add_note(deck%problems, '*'//name// &
-          ' is skipped: it cannot change the solution here')
+            ' is skipped: it cannot change the solution here')
         used = .false.
       case (keyword_refused)
         call refuse(deck, cursor, name)
@@ -184,11 +183,9 @@ contains
       best = k
     end do
     call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-      to_text(cursor%line), 1, &
-      len(name) + 1, 'unknown keyword *'//name, &
-        deck%file(cursor%file)%text(cursor%first:cursor%last), &
-      'the nearest known one is *'//trim(deck%table%keyword(best)%name)// &
-        '; bipact --keywords lists all'))
+        to_text(cursor%line), 1, len(name) + 1, 'unknown keyword *'//name, &
+        deck%file(cursor%file)%text(cursor%first:cursor%last), 'the nearest known one is *'// &
+        trim(deck%table%keyword(best)%name)//'; bipact --keywords lists all'))
   end subroutine unknown_keyword
 
   subroutine refuse(deck, cursor, name)
@@ -196,8 +193,7 @@ contains
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: name
     call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-      to_text(cursor%line), 0, 0, &
-      '*'//name//' is not available in this version', '', ''))
+        to_text(cursor%line), 0, 0, '*'//name//' is not available in this version', '', ''))
   end subroutine refuse
 
   !> *INCLUDE: the file name, relative to the file that names it.
@@ -216,16 +212,16 @@ contains
     do while (more)
       if (is_keyword(deck, cursor)) return
       path = join_path(folder_of(deck%file(cursor%file)%path), &
-                       trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last))))
+          trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last))))
       file = deck%files + 1
       k = cursor%file
       do while (k > 0)
-        if (deck%file(k)%path == path) call fail(status, status_deck, &
-          'the file includes itself: "'//path//'"')
+        if (deck%file(k)%path == path) &
+            call fail(status, status_deck, 'the file includes itself: "'//path//'"')
         k = deck%file(k)%parent
       end do
       if (depth >= include_depth .or. file > size(deck%file)) &
-        call fail(status, status_deck, 'too many or too deeply nested include files')
+          call fail(status, status_deck, 'too many or too deeply nested include files')
       if (.not. failed(status)) then
         deck%files = file
         deck%file(file)%parent = cursor%file
@@ -234,9 +230,9 @@ contains
       end if
       if (failed(status)) then
         call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-          to_text(cursor%line), 0, 0, &
-          '*INCLUDE: '//status%message, deck%file(cursor%file)%text(cursor%first:cursor%last), &
-          'the name is relative to the file that includes it'))
+            to_text(cursor%line), 0, 0, '*INCLUDE: '//status%message, &
+            deck%file(cursor%file)%text(cursor%first:cursor%last), &
+            'the name is relative to the file that includes it'))
         status = status_t()
       else
         call read_file(deck, file, depth + 1, parameters, overrides, ended)

@@ -36,7 +36,7 @@ contains
     character(256) :: reason
     file%path = path
     open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
-          status='old', iostat=ios, iomsg=reason)
+        status='old', iostat=ios, iomsg=reason)
     if (ios == 0) then
       inquire (unit=unit, size=length)
       if (length < 0 .or. length >= huge(1)) then

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The shape of a table of keywords: cards, fields, columns, defaults, ranges, help. The one
-!> table
-!> (deck_keywords) feeds the reader, the messages, the echo and the documentation.
+!> table (deck_keywords) feeds the reader, the messages, the echo and the documentation.
 module deck_table
   use base_kinds, only: wp
   implicit none
@@ -100,9 +99,8 @@ contains
   end subroutine add_card
 
   !> Adds a field to the last card. spec holds blank-separated words: kind and width first
-  !> ("R10"),
-  !> then any of "req", "note", "fixed", "ignored", "0=d", "=default", "[units]", ">x", ">=x",
-  !> "<x", "<=x".
+  !> ("R10"), then any of "req", "note", "fixed", "ignored", "0=d", "=default", "[units]", ">x",
+  !> ">=x", "<x", "<=x".
   subroutine add_field(table, name, spec, help)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name

@@ -72,8 +72,7 @@ contains
   end subroutine quad4_stiffness
 
   !> Four points (+-a1, +-a2), weight one: a = 1/sqrt(3) is the consistent mass, a = 1 the
-  !> lumped
-  !> one, between them the modified rules of Guddati & Yue (2004).
+  !> lumped one, between them the modified rules of Guddati & Yue (2004).
   pure subroutine quad4_mass(this, x, density, thickness, a, me)
     class(quad4_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)

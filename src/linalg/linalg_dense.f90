@@ -67,11 +67,11 @@ contains
     end do
     block%scale = one
     if (largest > zero .and. largest <= huge(largest)) &
-      block%scale = scale(one, exponent(largest))
+        block%scale = scale(one, exponent(largest))
     block%l = block%l/block%scale
     call dpotrf('L', block%n, block%l, block%n, info)
     if (info /= 0) call fail(status, status_numerical, 'lost pivot '//to_text(info)// &
-                             ' in the contact block: the matrix is not positive definite')
+        ' in the contact block: the matrix is not positive definite')
   end subroutine dense_factor
 
   !> b = matrix^-1 b for one right-hand side of n entries (any shape).

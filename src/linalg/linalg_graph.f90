@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The node graph and the symmetric matrices that live on it: blocks of 2 x 2 (stiffness-like)
-!> and
-!> scalars per node pair (mass-like, the same for both directions).
+!> and scalars per node pair (mass-like, the same for both directions).
 !> Rows hold every neighbour and the node itself, in increasing order.
 module linalg_graph
   use base_kinds, only: wp, zero

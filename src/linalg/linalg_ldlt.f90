@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Sparse factor A = L D L' in 2 x 2 node blocks, up-looking along the elimination tree (Davis
-!> 2005),
-!> for symmetric positive definite A; the last nodes stay as a dense Schur complement.
+!> 2005), for symmetric positive definite A; the last nodes stay as a dense Schur complement.
 !> Node blocks need one index per four reals and no square root.
 module linalg_ldlt
   use base_kinds, only: wp, i8, zero
@@ -45,12 +44,12 @@ contains
     this%leading = graph%n - size(last)
     this%info%engine = 'LDLT'
     call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
-                      this%info%multiplications, status)
+        this%info%multiplications, status)
     if (failed(status)) return
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]
-    if (allocated(this%parent)) deallocate (this%parent, this%first, this%row, this%l, &
-      this%d_inverse, this%work)
+    if (allocated(this%parent)) &
+        deallocate (this%parent, this%first, this%row, this%l, this%d_inverse, this%work)
     allocate (this%parent(graph%n), rows(graph%n), this%first(this%leading + 1))
     call symbolic_factor(graph, this%order, this%leading, this%parent, rows)
     this%first(1) = 1
@@ -59,10 +58,10 @@ contains
     end do
     allocate (this%row(this%first(this%leading + 1) - 1))
     allocate (this%l(2, 2, size(this%row)), this%d_inverse(3, this%leading), &
-      this%work(2, graph%n))
+        this%work(2, graph%n))
     this%block%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
-    this%info%factor_bytes = 36_i8*size(this%row, kind=i8) &
-      + 28_i8*this%leading + 32_i8*size(last, kind=i8)**2
+    this%info%factor_bytes = 36_i8*size(this%row, kind=i8) + 28_i8*this%leading &
+        + 32_i8*size(last, kind=i8)**2
   end subroutine ldlt_analyse
 
   !> Numerical factor: one row of L at a time, then the dense block by LAPACK.
@@ -83,9 +82,8 @@ contains
       call scatter_row(this, graph, matrix, k, y, mark, path, reach, top)
       call eliminate_row(this, k, reach(top:this%n), y, filled)
       if (k <= this%leading) then
-        call invert_pivot(this, matrix%value(:, :, graph%position(this%order(k), &
-          this%order(k))), k, &
-                          y(:, :, k), status)
+        call invert_pivot(this, matrix%value(:, :, &
+            graph%position(this%order(k), this%order(k))), k, y(:, :, k), status)
         y(:, :, k) = zero
       else
         call store_block_row(this, k, y)
@@ -192,8 +190,8 @@ contains
       this%d_inverse(1, k) = 1.0_wp/pivot(1, 1) - l21*this%d_inverse(2, k)
     else
       call fail(status, status_numerical, 'lost pivot at node index '// &
-                to_text(this%order(k))//': the effective matrix is not positive definite', &
-                hint='check mass, stiffness and time step of the elements around it')
+          to_text(this%order(k))//': the effective matrix is not positive definite', &
+          hint='check mass, stiffness and time step of the elements around it')
     end if
   end subroutine invert_pivot
 
@@ -221,8 +219,8 @@ contains
       this%work(1, k) = b(1, this%order(k))
       this%work(2, k) = b(2, this%order(k))
     end do
-    call forward_blocks(this%leading, this%n, this%first, this%row, this%l, this%d_inverse, &
-      this%work)
+    call forward_blocks(this%leading, this%n, this%first, this%row, this%l, &
+        this%d_inverse, this%work)
     b_last = this%work(:, this%leading + 1:this%n)
   end subroutine ldlt_forward
 

@@ -15,8 +15,8 @@ module linalg_order
   integer(i8), parameter :: metis_threshold = 2000000_i8
 
   interface
-    integer(c_int) function metis_node_nd(nvtxs, xadj, adjncy, vwgt, options, perm, iperm) &
-      bind(c, name='METIS_NodeND')
+    integer(c_int) function metis_node_nd(nvtxs, xadj, adjncy, vwgt, options, perm, &
+        iperm) bind(c, name='METIS_NodeND')
       import :: c_int, c_ptr
       integer(c_int), intent(in) :: nvtxs
       integer(c_int), intent(in) :: xadj(*)
@@ -91,8 +91,7 @@ contains
   end subroutine one_order
 
   !> Reverse Cuthill-McKee (1969; George 1971) on the subgraph of `nodes`: first outwards from
-  !> the
-  !> nodes that come last, so that they gather no fill from afar, then from nodes of least
+  !> the nodes that come last, so that they gather no fill from afar, then from nodes of least
   !> degree.
   pure subroutine reverse_cuthill_mckee(graph, nodes, last, order)
     type(graph_t), intent(in) :: graph
@@ -182,14 +181,13 @@ contains
     xadj(n + 1) = int(length, c_int)
     info = int(metis_node_nd(int(n, c_int), xadj, adjncy, c_null_ptr, c_null_ptr, perm, iperm))
     if (info /= 1) call fail(status, status_numerical, 'METIS found no elimination order', &
-                             hint='choose ORDER RCM on *BIPACT_SOLVER')
+        hint='choose ORDER RCM on *BIPACT_SOLVER')
     order = nodes(perm + 1)
   end subroutine metis_order
 
   !> Elimination tree and the number of rows below each pivot (Liu 1990; Davis 2005): row k of
-  !> the
-  !> factor holds the nodes met on the paths from its entries in A up the tree. The nodes after
-  !> `leading` are not eliminated: they end a path.
+  !> the factor holds the nodes met on the paths from its entries in A up the tree. The nodes
+  !> after `leading` are not eliminated: they end a path.
   pure subroutine symbolic_factor(graph, order, leading, parent, rows)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: order(:)
@@ -219,8 +217,7 @@ contains
   end subroutine symbolic_factor
 
   !> Multiplications of 2 x 2 blocks that the factor of an order costs: half the sum of the
-  !> squares
-  !> of its column lengths, and the pivots.
+  !> squares of its column lengths, and the pivots.
   pure integer(i8) function count_factor(graph, order, leading)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: order(:)

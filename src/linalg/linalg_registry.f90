@@ -23,8 +23,7 @@ contains
       allocate (skyline_t :: solver)
     case default
       call fail(status, status_deck, 'solver engine "'//trim(options%engine)// &
-        '" is not available', &
-                hint='choose AUTO, LDLT or SKYLINE')
+          '" is not available', hint='choose AUTO, LDLT or SKYLINE')
       return
     end select
     solver%options = options

@@ -1,9 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The classic profile (skyline) factor A = L D L', one scalar row at a time (Jennings 1966;
-!> Bathe &
-!> Wilson 1976): a small engine, and the oracle for the sparse one. The last nodes stay as a
-!> dense
-!> Schur complement, as everywhere.
+!> Bathe & Wilson 1976): a small engine, and the oracle for the sparse one. The last nodes stay
+!> as a dense Schur complement, as everywhere.
 module linalg_skyline
   use base_kinds, only: wp, i8, zero
   use base_status, only: status_t, fail, failed, status_numerical
@@ -48,13 +46,13 @@ contains
     this%leading = 2*(graph%n - size(last))
     this%info%engine = 'SKYLINE'
     call choose_order(graph, last, wanted, this%order, this%info%order, &
-      this%info%multiplications, status)
+        this%info%multiplications, status)
     if (failed(status)) return
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]
     if (allocated(this%left)) deallocate (this%left, this%start, this%l, this%d, this%work)
     allocate (this%left(2*graph%n), this%start(2*graph%n + 1), this%d(2*graph%n), &
-      this%work(2*graph%n))
+        this%work(2*graph%n))
     this%start(1) = 1
     do k = 1, graph%n
       low = k
@@ -84,8 +82,8 @@ contains
         do r = 1, 2
           row = 2*k - 2 + r
           do column = 2*i - 1, min(2*i, row - 1)
-            this%l(this%start(row) + column - this%left(row)) &
-              = matrix%value(r, column - 2*i + 2, m)
+            this%l(this%start(row) + column - this%left(row)) = matrix%value(r, &
+                column - 2*i + 2, m)
           end do
           if (i == k) this%d(row) = matrix%value(r, r, m)
         end do
@@ -96,8 +94,7 @@ contains
       if (row > this%leading) cycle
       if (this%d(row) > zero .and. this%d(row) <= huge(zero)) cycle
       call fail(status, status_numerical, 'lost pivot at node index '// &
-                to_text(this%order((row + 1)/2))// &
-                  ': the effective matrix is not positive definite')
+          to_text(this%order((row + 1)/2))//': the effective matrix is not positive definite')
       return
     end do
     call take_block(this)
@@ -116,11 +113,10 @@ contains
       top = min(column - 1, this%leading)
       count = top - low + 1
       if (count <= 0) cycle
-      associate (a => this%start(row) + low - this%left(row), b => this%start(column) &
-        + low - this%left(column))
-        this%l(this%start(row) + column - this%left(row)) = &
-          this%l(this%start(row) + column - this%left(row)) &
-          - dot_product(this%l(a:a + count - 1), this%l(b:b + count - 1))
+      associate (a => this%start(row) + low - this%left(row), &
+          b => this%start(column) + low - this%left(column))
+        this%l(this%start(row) + column - this%left(row)) = this%l(this%start(row) + column &
+            - this%left(row)) - dot_product(this%l(a:a + count - 1), this%l(b:b + count - 1))
       end associate
     end do
     do column = this%left(row), min(row - 1, this%leading)
@@ -140,7 +136,7 @@ contains
       do column = this%leading + 1, row - 1
         if (column < this%left(row)) cycle
         this%block%l(row - this%leading, column - this%leading) = &
-          this%l(this%start(row) + column - this%left(row))
+            this%l(this%start(row) + column - this%left(row))
       end do
     end do
   end subroutine take_block
@@ -157,8 +153,7 @@ contains
     do row = 1, 2*this%n
       top = min(row - 1, this%leading)
       this%work(row) = this%work(row) - dot_product(this%l(this%start(row):this%start(row) &
-        + top - this%left(row)), &
-                                                    this%work(this%left(row):top))
+          + top - this%left(row)), this%work(this%left(row):top))
     end do
     b_last = reshape(this%work(this%leading + 1:), [2, this%n_last])
     this%work(1:this%leading) = this%work(1:this%leading)/this%d(1:this%leading)
@@ -174,7 +169,7 @@ contains
     do row = 2*this%n, 1, -1
       top = min(row - 1, this%leading)
       this%work(this%left(row):top) = this%work(this%left(row):top) &
-        - this%work(row)*this%l(this%start(row):this%start(row) + top - this%left(row))
+          - this%work(row)*this%l(this%start(row):this%start(row) + top - this%left(row))
     end do
     do k = 1, this%n
       x(:, this%order(k)) = this%work(2*k - 1:2*k)

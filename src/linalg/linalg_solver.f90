@@ -4,8 +4,7 @@
 !>   analyse -> factor -> [forward -> solve_last ... -> backward] per step.
 !> forward reduces b to the block: S x_last = b_last with the Schur complement S; all contact
 !> iterations happen there; backward gives the rest of x. Vectors are (2, n) in node order,
-!> those
-!> of the block (2, m) in the order of `last`.
+!> those of the block (2, m) in the order of `last`.
 module linalg_solver
   use base_kinds, only: wp, i8
   use base_status, only: status_t
@@ -19,8 +18,7 @@ module linalg_solver
     character(8) :: order = 'AUTO'
     integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
     !> A pivot below this share of its own diagonal before elimination counts as null: its
-    !> unknown
-    !> is set to zero. 0 = null pivots are an error.
+    !> unknown is set to zero. 0 = null pivots are an error.
     real(wp) :: null_pivot = 0.0_wp
   end type solver_options_t
 

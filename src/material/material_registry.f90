@@ -20,7 +20,7 @@ contains
     select case (keyword)
     case ('MAT_ELASTIC', 'MAT_001')
       allocate (material, source=elastic_t(id=id, density=constants(1), young=constants(2), &
-                                           poisson=constants(3)))
+          poisson=constants(3)))
     end select
   end subroutine make_material
 

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What changes during a run, apart from contact and ledger: everything a restart must hold of
-!> the
-!> bodies.
+!> the bodies.
 module model_state
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero

@@ -1,20 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The tables of a run: what each row holds (doc/output.md). A table that is not asked for has
-!> no
-!> file and costs nothing.
+!> no file and costs nothing.
 module output_rows
   use base_format, only: real_writer_t, make_real_writer
   use base_kinds, only: wp, zero
   use base_status, only: status_t
   use base_timers, only: timers_t, phase_input, phase_assemble, phase_factor, phase_solve, &
-    phase_search, phase_contact, phase_output
+      phase_search, phase_contact, phase_output
   use contact_types, only: contact_t
   use cone_types, only: certificate_t
   use model_data, only: model_t
   use model_state, only: state_t
   use output_table, only: table_file_t, open_table, row_is_due, begin_row, add_number, &
-    add_count, &
-    end_row, close_table
+      add_count, end_row, close_table
   use time_ledger, only: ledger_t
   implicit none
   private
@@ -43,21 +41,21 @@ contains
     if (has_acceleration) more = ' ax ay az'
     associate (r => model%requests, f => tables%file)
       call open_table(f(glstat), folder, 'glstat', r%glstat, model%title, &
-        'time cycle dt kinetic internal total initial external motion friction contact '// &
-        'unsolved algorithmic damping residual ratio momx momy momz angx angy angz', status)
+          'time cycle dt kinetic internal total initial external motion friction contact '// &
+          'unsolved algorithmic damping residual ratio momx momy momz angx angy angz', status)
       call open_table(f(matsum), folder, 'matsum', r%matsum, model%title, &
-        'time part mass kinetic internal momx momy momz vx vy vz', status)
+          'time part mass kinetic internal momx momy momz vx vy vz', status)
       call open_table(f(nodout), folder, 'nodout', r%nodout, model%title, &
-        'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more, status)
+          'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more, status)
       call open_table(f(rcforc), folder, 'rcforc', r%rcforc, model%title, &
-        'time contact side fx fy '// &
-        'fz fmx fmy fmz ix iy iz fn ft nactive nstick nslip gapmin', status)
+          'time contact side fx fy '// &
+          'fz fmx fmy fmz ix iy iz fn ft nactive nstick nslip gapmin', status)
       call open_table(f(sleout), folder, 'sleout', r%sleout, model%title, &
-        'time contact normalwork '// &
-        'frictionwork solves sweeps eta error error2018 penetration', status)
+          'time contact normalwork '// &
+          'frictionwork solves sweeps eta error error2018 penetration', status)
       call open_table(f(timing), folder, 'timing', r%timing, model%title, &
-        'time cycle cpu input '// &
-        'assemble factor solve search contact output factors solves sweeps', status)
+          'time cycle cpu input '// &
+          'assemble factor solve search contact output factors solves sweeps', status)
     end associate
     tables%any_on = any(tables%file%on)
     if (tables%any_on) call make_real_writer(tables%writer)
@@ -81,7 +79,7 @@ contains
     real(wp), intent(in) :: time, h
     logical, intent(in) :: last
     energies_due = row_is_due(tables%file(glstat), time, h) &
-      .or. row_is_due(tables%file(matsum), time, h)
+        .or. row_is_due(tables%file(matsum), time, h)
     if (last) energies_due = tables%file(glstat)%on .or. tables%file(matsum)%on
   end function energies_due
 
@@ -137,11 +135,11 @@ contains
     real(wp), intent(in) :: h
     call add_number(file, writer, state%time)
     call add_count(file, state%cycle)
-    call add_numbers(file, writer, [h, ledger%kinetic, ledger%internal, ledger%total, &
-      ledger%initial, ledger%external, ledger%motion, ledger%contact%friction, &
-      ledger%contact%normal, ledger%contact%unsolved, ledger%algorithmic, ledger%damping, &
-      ledger%residual, ledger%ratio, ledger%momentum(1), ledger%momentum(2), zero, zero, zero, &
-      ledger%angular])
+    call add_numbers(file, writer, &
+        [h, ledger%kinetic, ledger%internal, ledger%total, ledger%initial, ledger%external, &
+        ledger%motion, ledger%contact%friction, ledger%contact%normal, &
+        ledger%contact%unsolved, ledger%algorithmic, ledger%damping, ledger%residual, &
+        ledger%ratio, ledger%momentum(1), ledger%momentum(2), zero, zero, zero, ledger%angular])
     call end_row(file)
   end subroutine write_glstat
 
@@ -159,8 +157,8 @@ contains
       call add_number(file, writer, state%time)
       call add_count(file, model%part(p)%id)
       call add_numbers(file, writer, [ledger%part_mass(p), ledger%part_kinetic(p), &
-        ledger%part_internal(p), ledger%part_momentum(:, p), zero, &
-        ledger%part_momentum(:, p)/ledger%part_mass(p), zero])
+          ledger%part_internal(p), ledger%part_momentum(:, p), zero, &
+          ledger%part_momentum(:, p)/ledger%part_mass(p), zero])
       call end_row(file)
     end do
   end subroutine write_matsum
@@ -182,7 +180,7 @@ contains
       call add_number(file, writer, state%time)
       call add_count(file, model%node_id(i))
       call add_numbers(file, writer, [state%u(:, i), zero, state%v(:, i), zero, mean, zero, &
-                                      model%x(:, i) + state%u(:, i), zero])
+          model%x(:, i) + state%u(:, i), zero])
       if (allocated(state%a)) call add_numbers(file, writer, [state%a(:, i), zero])
       call end_row(file)
     end do
@@ -203,9 +201,9 @@ contains
           call add_number(file, writer, state%time)
           call add_count(file, c%id)
           call add_count(file, s)
-          call add_numbers(file, writer, [c%force(:, s), zero, 0.5_wp*(c%force(:, s) &
-            + c%force_before(:, s)), zero, c%impulse(:, s), zero, c%normal_force, &
-              c%tangential_force])
+          call add_numbers(file, writer, &
+              [c%force(:, s), zero, 0.5_wp*(c%force(:, s) + c%force_before(:, s)), zero, &
+              c%impulse(:, s), zero, c%normal_force, c%tangential_force])
           call add_count(file, c%n_active)
           call add_count(file, c%n_stick)
           call add_count(file, c%n_slip)
@@ -217,8 +215,7 @@ contains
   end subroutine write_rcforc
 
   !> One row for the whole coupled problem (id 0), one per contact; the solver's figures are
-  !> those of
-  !> the coupled problem in every row.
+  !> those of the coupled problem in every row.
   subroutine write_sleout(file, writer, contact, state, h, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
@@ -232,18 +229,17 @@ contains
       call add_number(file, writer, state%time)
       if (p == 0) then
         call add_count(file, 0)
-        call add_numbers(file, writer, [sum(contact%pair%normal_work), &
-          sum(contact%pair%friction_work)])
+        call add_numbers(file, writer, &
+            [sum(contact%pair%normal_work), sum(contact%pair%friction_work)])
       else
         call add_count(file, contact%pair(p)%id)
-        call add_numbers(file, writer, [contact%pair(p)%normal_work, &
-          contact%pair(p)%friction_work])
+        call add_numbers(file, writer, &
+            [contact%pair(p)%normal_work, contact%pair(p)%friction_work])
       end if
       call add_count(file, contact%solves_since_row)
       call add_count(file, contact%sweeps_since_row)
       call add_numbers(file, writer, [contact%worst_since_row%eta, &
-        contact%worst_since_row%error, &
-                                      contact%worst_since_row%error2018])
+          contact%worst_since_row%error, contact%worst_since_row%error2018])
       if (p == 0) call add_number(file, writer, maxval([zero, contact%pair%penetration]))
       if (p > 0) call add_number(file, writer, contact%pair(p)%penetration)
       call end_row(file)

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A table: header, rows of constant width, a closing line. Rows are collected and written many
-!> at a
-!> time, always whole.
+!> at a time, always whole.
 module output_table
   use base_format, only: real_writer_t, real_width, put_real, put_integer
   use base_kinds, only: wp, zero
@@ -44,7 +43,7 @@ contains
     end if
     allocate (character(buffer_size) :: table%buffer)
     open (newunit=table%unit, file=table%path, access='stream', form='unformatted', &
-          status='replace', action='write', iostat=ios, iomsg=reason)
+        status='replace', action='write', iostat=ios, iomsg=reason)
     if (ios /= 0) then
       call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))
       table%on = .false.
@@ -129,8 +128,8 @@ contains
     write (table%unit, iostat=ios, iomsg=reason) table%buffer(1:table%filled)
     if (ios == 0) flush (table%unit, iostat=ios, iomsg=reason)
     table%filled = 0
-    if (ios /= 0) call fail(status, status_file, 'cannot write "'//table%path//'": '// &
-      trim(reason))
+    if (ios /= 0) &
+        call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))
   end subroutine write_out
 
   !> Writes what is left and the closing line "# end: done | failed | stopped, cycle N".

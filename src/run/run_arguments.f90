@@ -57,15 +57,15 @@ contains
           call fail(status, status_file, 'unknown option "'//word//'"', hint='bipact --help')
         else if (allocated(arguments%deck)) then
           call fail(status, status_file, 'more than one deck: "'//arguments%deck//'" and "'// &
-                    word//'"', hint='bipact --help')
+              word//'"', hint='bipact --help')
         else
           arguments%deck = word
         end if
       end select
       k = k + 1
     end do
-    if (allocated(arguments%deck) .or. arguments%keywords .or. arguments%help .or. &
-        arguments%version) return
+    if (allocated(arguments%deck) .or. arguments%keywords .or. arguments%help &
+        .or. arguments%version) return
     call fail(status, status_file, 'no deck given', hint='bipact DECK; bipact --help')
   end subroutine read_arguments
 
@@ -88,8 +88,8 @@ contains
       call fail(status, status_file, 'expected -D name=value, found "'//text//'"')
       return
     end if
-    arguments%override = [arguments%override, override_t(name=text(1:equal - 1), &
-                                                         value=text(equal + 1:))]
+    arguments%override = [arguments%override, &
+        override_t(name=text(1:equal - 1), value=text(equal + 1:))]
   end subroutine add_override
 
 end module run_arguments

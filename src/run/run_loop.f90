@@ -8,8 +8,7 @@ module run_loop
   use base_status, only: status_t, fail, failed, add_place, status_numerical, status_stopped
   use base_strings, only: to_text
   use base_timers, only: phase_product, phase_solve, phase_search, phase_contact, &
-    phase_update, &
-    phase_energy, phase_output, phase_other
+      phase_update, phase_energy, phase_output, phase_other
   use contact_condense, only: build_w
   use contact_setup, only: find_candidates
   use contact_stage, only: solve_contact, settle_contact
@@ -54,7 +53,7 @@ contains
     integer :: stage
     logical :: acting
     t1 = merge(run%model%controls%end_time, (run%state%cycle + 1)*run%model%controls%dt, &
-               run%state%cycle == run%plan%full_steps)
+        run%state%cycle == run%plan%full_steps)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
     acting = .false.
@@ -85,8 +84,7 @@ contains
   end subroutine advance
 
   !> One correction of x: the residual b + H' r - A x from the mass and the element strains,
-  !> solved
-  !> with the same factor (Wilkinson 1963).
+  !> solved with the same factor (Wilkinson 1963).
   subroutine refine(run, stage)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
@@ -130,7 +128,7 @@ contains
     logical :: new_block
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
-                         run%scheme%h, run%state%cycle, t1, new_block, status)
+        run%scheme%h, run%state%cycle, t1, new_block, status)
     if (failed(status)) call add_place(status, moment(run))
     if (new_block) call factor_matrix(run, .true., status)
   end subroutine prepare_contact
@@ -184,8 +182,8 @@ contains
     end do
     if (abs(total(1) + total(2)) <= huge(one)) return
     call fail(status, status_numerical, &
-      'the displacements are no numbers any more (NaN or infinite)', &
-              hint='check units, densities and the time step')
+        'the displacements are no numbers any more (NaN or infinite)', &
+        hint='check units, densities and the time step')
   end subroutine check_finite
 
   !> Works of the step into the ledger.
@@ -195,17 +193,16 @@ contains
     type(status_t), intent(inout) :: status
     call run%timers%enter(phase_energy)
     if (run%plan%loads) run%ledger%external = run%ledger%external &
-      + sum(run%state%du*(run%scheme%load_work_weight(1)*run%load_0 &
-                          + run%scheme%load_work_weight(2)*run%load_1))
+        + sum(run%state%du*(run%scheme%load_work_weight(1)*run%load_0 &
+        + run%scheme%load_work_weight(2)*run%load_1))
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
-                                                        + run%scheme%dissipation(run%system, &
-                                                          run%state)
+        + run%scheme%dissipation(run%system, run%state)
     if (.not. run%plan%contact) return
     if (run%contact%n == 0 .and. run%contact%n_before == 0) return
     call run%timers%enter(phase_contact)
     call settle_contact(run%model, run%contact, run%state%du, acting, status)
     call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
-                          run%scheme%h, run%state%du, run%ledger%contact)
+        run%scheme%h, run%state%du, run%ledger%contact)
   end subroutine account
 
   !> Rows that are due, and what must be watched at such times.
@@ -217,8 +214,8 @@ contains
     real(wp) :: h
     h = run%scheme%h
     energies = energies_due(run%tables, run%state%time, h, last) .or. last
-    if (run%model%controls%ledger_every > 0) energies = energies .or. &
-      mod(run%state%cycle, run%model%controls%ledger_every) == 0
+    if (run%model%controls%ledger_every > 0) &
+        energies = energies .or. mod(run%state%cycle, run%model%controls%ledger_every) == 0
     if (energies) call watch(run, status)
     if (.not. (run%tables%any_on .and. last)) then
       if (.not. any_due(run%tables, run%state%time, h)) return
@@ -227,8 +224,7 @@ contains
     run%tables%factors = run%factors
     run%tables%solves = run%solves
     call write_rows(run%tables, run%model, run%state, run%ledger, run%contact, run%timers, h, &
-      last, &
-                    status)
+        last, status)
     call run%timers%enter(phase_other)
   end subroutine tell
 
@@ -249,11 +245,11 @@ contains
       run%ledger%growths = run%ledger%growths + 1
       if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
       if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
-        'energy growth of '//to_text(run%ledger%largest_growth)//' of the largest term', &
-        place=moment(run), hint='choose SCHEME THETA, or ACTION WARN')
+          'energy growth of '//to_text(run%ledger%largest_growth)//' of the largest term', &
+          place=moment(run), hint='choose SCHEME THETA, or ACTION WARN')
     end if
     if (.not. abs(run%ledger%total) <= huge(one)) call fail(status, status_numerical, &
-      'the energy is no number any more (NaN or infinite)')
+        'the energy is no number any more (NaN or infinite)')
     call run%timers%enter(phase_other)
   end subroutine watch
 

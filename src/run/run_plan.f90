@@ -22,13 +22,13 @@ contains
     call plan_contact(model, plan)
     plan%loads = size(model%load) + size(model%gravity) > 0
     call add_feature(plan, 'loads', plan%loads, to_text(size(model%load))//' nodal, '// &
-             to_text(size(model%gravity))//' body')
+        to_text(size(model%gravity))//' body')
     call add_feature(plan, 'supports', any(model%fixed), to_text(count(model%fixed))// &
-      ' fixed dofs')
+        ' fixed dofs')
     call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
-             merge('1', '0', model%controls%redistribute))
+        merge('1', '0', model%controls%redistribute))
     call add_feature(plan, 'kinematics', .false., &
-      'small displacements: one stiffness, factored once')
+        'small displacements: one stiffness, factored once')
     call plan_tables(model, plan)
   end subroutine make_plan
 
@@ -69,15 +69,15 @@ contains
     friction = .false.
     if (plan%contact) friction = any(model%contact%mu > zero)
     call add_feature(plan, 'contact', plan%contact, to_text(size(model%contact))// &
-      ' contact card(s)')
+        ' contact card(s)')
     if (.not. plan%contact) then
       call add_feature(plan, 'friction', .false., 'no contact')
     else if (friction) then
-      call add_feature(plan, 'friction', .true., 'mu = '//to_text(maxval(model%contact%mu))// &
-        ' at most')
+      call add_feature(plan, 'friction', .true., 'mu = '// &
+          to_text(maxval(model%contact%mu))//' at most')
     else
       call add_feature(plan, 'friction', .false., &
-        'mu = 0 in all pairs: scalar contact rows only')
+          'mu = 0 in all pairs: scalar contact rows only')
     end if
   end subroutine plan_contact
 
@@ -89,15 +89,13 @@ contains
       call add_feature(plan, 'glstat', r%glstat > zero, 'every '//to_text(r%glstat))
       call add_feature(plan, 'matsum', r%matsum > zero, 'every '//to_text(r%matsum))
       call add_feature(plan, 'nodout', r%nodout > zero, to_text(size(r%history_node))// &
-        ' nodes, every '// &
-               to_text(r%nodout))
+          ' nodes, every '//to_text(r%nodout))
       call add_feature(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
       call add_feature(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
       call add_feature(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))
       if (model%controls%ledger_every > 0) then
         call add_feature(plan, 'ledger', .true., 'every '// &
-          to_text(model%controls%ledger_every)// &
-          ' steps')
+            to_text(model%controls%ledger_every)//' steps')
       else
         call add_feature(plan, 'ledger', .true., 'with GLSTAT, and at the end')
       end if

@@ -39,8 +39,8 @@ contains
     progress%shown = now
     elapsed = real(now - progress%start, wp)/real(rate, wp)
     write (error_unit, '(a)', advance='no') achar(13)//'time '//to_text(time)//'  step '// &
-      to_text(cycle)//'  '//to_text(nint(100.0_wp*cycle/steps))//' %  '// &
-      to_text(nint(elapsed*(steps - cycle)/max(1, cycle)))//' s left     '
+        to_text(cycle)//'  '//to_text(nint(100.0_wp*cycle/steps))//' %  '// &
+        to_text(nint(elapsed*(steps - cycle)/max(1, cycle)))//' s left     '
     flush (error_unit)
   end subroutine show_progress
 

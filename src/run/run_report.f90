@@ -33,8 +33,8 @@ contains
     write (run%log_unit, '(a)') 'deck:  '//run%deck%file(1)%path
     call write_plan(run, run%log_unit)
     write (run%log_unit, '(a)') 'solver '//run%solver%info%engine//', order '// &
-      run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)//' bytes, '// &
-      to_text(run%solver%info%multiplications)//' block multiplications'
+        run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)// &
+        ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications'
   end subroutine open_log
 
   subroutine open_text(path, unit, status)
@@ -53,9 +53,9 @@ contains
     integer, intent(in) :: unit
     integer :: k
     write (unit, '(a)') 'scene: '//to_text(run%model%nodes)//' nodes, '// &
-      to_text(run%model%elements)//' elements, '//to_text(size(run%model%part))// &
-        ' parts; scheme '// &
-      trim(run%model%controls%scheme)//', mass '//trim(run%model%controls%mass)
+        to_text(run%model%elements)//' elements, '//to_text(size(run%model%part))// &
+        ' parts; scheme '//trim(run%model%controls%scheme)//', mass '// &
+        trim(run%model%controls%mass)
     write (unit, '(a)') 'plan:'
     do k = 1, run%plan%n
       write (unit, '(a)') plan_line(run%plan, k)
@@ -86,13 +86,13 @@ contains
     type(run_t), intent(inout) :: run
     real(wp) :: degrees
     if (run%ledger%first_growth >= 0) call add_warning(run%deck%problems, &
-      'energy-growth: the energy rose by '//to_text(run%ledger%largest_growth)// &
-      ' of the largest term; first seen at step '//to_text(run%ledger%first_growth))
+        'energy-growth: the energy rose by '//to_text(run%ledger%largest_growth)// &
+        ' of the largest term; first seen at step '//to_text(run%ledger%first_growth))
     degrees = run%rotation*180.0_wp/acos(-1.0_wp)
-    if (degrees > run%model%controls%rotation_warning) call add_warning(run%deck%problems, &
-      'rotation: element '//to_text(run%model%element_id(run%rotation_element))// &
-        ' turned by '// &
-      to_text(degrees)//' degrees; the kinematics are those of small displacements')
+    if (degrees > run%model%controls%rotation_warning) &
+        call add_warning(run%deck%problems, 'rotation: element '// &
+        to_text(run%model%element_id(run%rotation_element))//' turned by '//to_text(degrees)// &
+        ' degrees; the kinematics are those of small displacements')
   end subroutine collect_warnings
 
   !> Steps, counts, ledger, contact certificate.
@@ -103,28 +103,26 @@ contains
     call cpu_time(cpu)
     associate (l => run%ledger, c => run%contact)
       write (unit, '(a)') 'steps '//to_text(run%state%cycle)//', time '// &
-        to_text(run%state%time)// &
-        ', CPU '//to_text(cpu)//' s'
+          to_text(run%state%time)//', CPU '//to_text(cpu)//' s'
       write (unit, '(a)') 'factorisations '//to_text(run%factors)//', solves '// &
-        to_text(run%solves)//', contact searches '//to_text(c%searches)//', contact solves '// &
-        to_text(c%solves)//', sweeps '//to_text(c%sweeps)
+          to_text(run%solves)//', contact searches '//to_text(c%searches)// &
+          ', contact solves '//to_text(c%solves)//', sweeps '//to_text(c%sweeps)
       write (unit, '(a)') 'energy: kinetic '//to_text(l%kinetic)//', internal '// &
-        to_text(l%internal)//', initial '//to_text(l%initial)//', external '// &
-          to_text(l%external)// &
-        ', motion '//to_text(l%motion)
+          to_text(l%internal)//', initial '//to_text(l%initial)//', external '// &
+          to_text(l%external)//', motion '//to_text(l%motion)
       write (unit, '(a)') '  lost: friction '//to_text(l%contact%friction)//', contact '// &
-        to_text(l%contact%normal)//', algorithmic '//to_text(l%algorithmic)//', damping '// &
-        to_text(l%damping)//'; unsolved '//to_text(l%contact%unsolved)
+          to_text(l%contact%normal)//', algorithmic '//to_text(l%algorithmic)//', damping '// &
+          to_text(l%damping)//'; unsolved '//to_text(l%contact%unsolved)
       write (unit, '(a)') '  ledger residual '//to_text(l%residual)//' (worst '// &
-        to_text(l%worst_residual)//'), ratio '//to_text(l%ratio)
+          to_text(l%worst_residual)//'), ratio '//to_text(l%ratio)
       if (run%plan%contact) write (unit, '(a)') 'contact: worst error '// &
-        to_text(c%worst%error)// &
-        ', eta '//to_text(c%worst%eta)//', penetration/edge '//to_text(c%worst_penetration)// &
-        ', certificate '//trim(merge('met    ', 'not met', c%worst%met))
+          to_text(c%worst%error)//', eta '//to_text(c%worst%eta)//', penetration/edge '// &
+          to_text(c%worst_penetration)//', certificate '// &
+          trim(merge('met    ', 'not met', c%worst%met))
     end associate
     write (unit, '(a)') 'peak memory '//peak_memory()
     write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
-      to_text(run%deck%problems%warning_count)
+        to_text(run%deck%problems%warning_count)
   end subroutine write_summary
 
   !> Largest resident memory so far as the system tells it; "unknown" where it does not.

@@ -76,16 +76,14 @@ contains
   end subroutine set_up
 
   !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
-  !> loses
-  !> digits that the ledger needs: then each solve is followed by one correction.
+  !> loses digits that the ledger needs: then each solve is followed by one correction.
   subroutine plan_refinement(run)
     type(run_t), intent(inout) :: run
     real(wp) :: ratio
     ratio = stiffness_ratio(run%system, run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k)
     run%plan%refinement = ratio > refinement_ratio
     call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
-                     to_text(ratio)//' in the effective matrix, limit '// &
-                       to_text(refinement_ratio))
+        to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio))
     if (run%plan%refinement) allocate (run%correction(2, run%system%n))
   end subroutine plan_refinement
 
@@ -96,12 +94,11 @@ contains
     if (.not. run%plan%contact .or. failed(status)) return
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
-                         run%scheme%h, 0, run%scheme%h, new_block, status)
+        run%scheme%h, 0, run%scheme%h, new_block, status)
   end subroutine first_candidates
 
   !> Factor of the effective matrix, with the contact block last and its flexibility; again is
-  !> true
-  !> when the block has changed and the order must be found anew.
+  !> true when the block has changed and the order must be found anew.
   subroutine factor_matrix(run, again, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: again
@@ -109,8 +106,8 @@ contains
     integer :: m
     if (failed(status)) return
     call run%timers%enter(phase_factor)
-    call effective_matrix(run%system, run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k, &
-      run%matrix)
+    call effective_matrix(run%system, run%scheme%stage(1)%c_m, &
+        run%scheme%stage(1)%c_k, run%matrix)
     if (.not. run%plan%contact) allocate (run%contact%block(0), run%contact%pair(0))
     m = size(run%contact%block)
     if (again) then
@@ -118,9 +115,9 @@ contains
       run%analyses = run%analyses + 1
       if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
       allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
-      if (2*m > run%solver_options%block_limit) call add_note(run%deck%problems, &
-        'the contact '// &
-        'block has '//to_text(2*m)//' dofs, more than NLAST; it is kept dense all the same')
+      if (2*m > run%solver_options%block_limit) &
+          call add_note(run%deck%problems, 'the contact block has '//to_text(2*m)// &
+          ' dofs, more than NLAST; it is kept dense all the same')
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1

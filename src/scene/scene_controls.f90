@@ -29,7 +29,7 @@ contains
     b = deck%next_block(keyword, b)
     if (b == 0 .or. only_record == 0) return
     if (deck%block(b)%last >= deck%block(b)%first) call deck%complain(deck%block(b)%first, '', &
-      '*'//keyword//' stands twice', 'the first is at '//deck%place(only_record))
+        '*'//keyword//' stands twice', 'the first is at '//deck%place(only_record))
   end function only_record
 
   subroutine require(deck, keyword, record)
@@ -37,8 +37,8 @@ contains
     character(*), intent(in) :: keyword
     integer, intent(out) :: record
     record = only_record(deck, keyword)
-    if (record == 0) call add_problem(deck%problems, deck%file(1)%path//': the deck needs *'// &
-      keyword)
+    if (record == 0) &
+        call add_problem(deck%problems, deck%file(1)%path//': the deck needs *'//keyword)
   end subroutine require
 
   !> Time and scheme, mass, ledger.
@@ -57,7 +57,7 @@ contains
     if (r > 0) then
       model%controls%dt = deck%real(r, 'DT0')
       if (deck%integer(r, 'IMFLAG') /= 1) call deck%complain(r, 'IMFLAG', &
-        'expected 1: explicit integration is not available in this version')
+          'expected 1: explicit integration is not available in this version')
     end if
     call require(deck, 'CONTROL_IMPLICIT_DYNAMICS', r)
     if (r > 0) call read_dynamics(deck, model%controls, r)
@@ -79,10 +79,10 @@ contains
     controls%gamma = deck%real(r, 'GAMMA')
     controls%beta = deck%real(r, 'BETA')
     if (deck%integer(r, 'IMASS') /= 1) call deck%complain(r, 'IMASS', &
-      'expected 1: static analysis is not available in this version')
+        'expected 1: static analysis is not available in this version')
     if (4.0_wp*controls%beta < (controls%gamma + 0.5_wp)**2) call deck%complain(r, 'BETA', &
-      'expected BETA >= (GAMMA + 1/2)^2/4, the bound of unconditional stability', &
-      'use GAMMA 0.5 with BETA 0.25')
+        'expected BETA >= (GAMMA + 1/2)^2/4, the bound of unconditional stability', &
+        'use GAMMA 0.5 with BETA 0.25')
   end subroutine read_dynamics
 
   !> *BIPACT_TIME; without it the scheme is Newmark, as the other cards say.
@@ -94,9 +94,9 @@ contains
     if (r == 0) then
       controls%scheme = 'NEWMARK'
       if (deck%next_block('CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 0) > 0) &
-        call add_warning(deck%problems, &
+          call add_warning(deck%problems, &
           'no *BIPACT_TIME: the scheme is NEWMARK, which gains '// &
-                         'energy without bound on impact; choose SCHEME THETA')
+          'energy without bound on impact; choose SCHEME THETA')
       return
     end if
     controls%scheme = deck%word(r, 'SCHEME')
@@ -105,8 +105,8 @@ contains
     controls%xi = controls%theta
     if (deck%is_given(r, 'XI')) controls%xi = deck%real(r, 'XI')
     if (controls%scheme /= 'NEWMARK') return
-    if (deck%is_given(r, 'THETA')) call deck%complain(r, 'THETA', &
-      'NEWMARK has no theta: leave it blank')
+    if (deck%is_given(r, 'THETA')) &
+        call deck%complain(r, 'THETA', 'NEWMARK has no theta: leave it blank')
     if (deck%is_given(r, 'XI')) call deck%complain(r, 'XI', 'NEWMARK has no xi: leave it blank')
   end subroutine read_scheme
 
@@ -122,19 +122,19 @@ contains
     controls%redistribute = deck%integer(r, 'REDIST') == 1
     if (controls%mass /= 'DISPERSION') then
       if (deck%is_given(r, 'COURANT')) call deck%complain(r, 'COURANT', &
-        'only the mass DISPERSION has a Courant number: leave it blank')
+          'only the mass DISPERSION has a Courant number: leave it blank')
       return
     end if
     if (deck%is_given(r, 'COURANT')) controls%courant = deck%real(r, 'COURANT')
     if (controls%scheme == 'NEWMARK') then
-      midpoint = .not. (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) &
-        > zero)
+      midpoint = &
+          .not. (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) > zero)
     else
-      midpoint = .not. (abs(controls%theta - 0.5_wp) > zero .or. abs(controls%xi - 0.5_wp) &
-        > zero)
+      midpoint = &
+          .not. (abs(controls%theta - 0.5_wp) > zero .or. abs(controls%xi - 0.5_wp) > zero)
     end if
     if (.not. midpoint) call add_warning(deck%problems, 'the mass DISPERSION is tuned to '// &
-      'theta = xi = 1/2 (gamma 1/2, beta 1/4): other values lose its accuracy')
+        'theta = xi = 1/2 (gamma 1/2, beta 1/4): other values lose its accuracy')
   end subroutine read_mass
 
   !> A word field must be one of a list.
@@ -151,8 +151,7 @@ contains
       list = list//', '//trim(known(k))
     end do
     call deck%complain(record, field, 'expected one of '//list//', found "'// &
-                       deck%word(record, field)//'"', &
-                         'other values are not available in this version')
+        deck%word(record, field)//'"', 'other values are not available in this version')
   end subroutine check_word
 
   !> *BIPACT_CONTACT and *BIPACT_SOLVER.
@@ -213,11 +212,10 @@ contains
         card%side(s) = deck%integer(r, side(s))
         if (card%side(s) < 0) then
           if (find_set(model%node_set, -card%side(s)) == 0) call deck%complain(r, side(s), &
-            'node set '//to_text(-card%side(s))//' is not defined')
+              'node set '//to_text(-card%side(s))//' is not defined')
         else if (find_set(model%part_set, card%side(s)) == 0) then
           call deck%complain(r, side(s), 'part set '//to_text(card%side(s))// &
-            ' is not defined', &
-                             'SURFA and SURFB are part sets; negative: node sets')
+              ' is not defined', 'SURFA and SURFB are part sets; negative: node sets')
         end if
       end do
       model%contact = [model%contact, card]
@@ -270,14 +268,13 @@ contains
             if (k == 1) row = nodes%find(id)
             if (k == 2) row = find_set(model%node_set, id)
             if (row == 0) then
-              call deck%complain(r, 'ID'//achar(48 + m), &
-                trim(merge('node    ', 'node set', k == 1))// &
-                                 ' '//to_text(id)//' is not defined')
+              call deck%complain(r, 'ID'//achar(48 + m), trim(merge('node    ', 'node set', &
+                  k == 1))//' '//to_text(id)//' is not defined')
             else if (k == 1) then
               model%requests%history_node = [model%requests%history_node, row]
             else
               model%requests%history_node = [model%requests%history_node, &
-                                             model%node_set(row)%member]
+                  model%node_set(row)%member]
             end if
           end do
         end do

@@ -33,8 +33,7 @@ contains
     do k = 2, size(ids)
       if (map%sorted(k) /= map%sorted(k - 1)) cycle
       call deck%complain(record(map%row(k)), field, what//' '//to_text(map%sorted(k))// &
-                         ' is defined twice', 'the first is at '// &
-                           deck%place(record(map%row(k - 1))))
+          ' is defined twice', 'the first is at '//deck%place(record(map%row(k - 1))))
     end do
   end subroutine make_id_map
 

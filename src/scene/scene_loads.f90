@@ -48,7 +48,7 @@ contains
       curve%o(k) = deck%real(head, 'SFO')*(deck%real(head + k, 'O') + deck%real(head, 'OFFO'))
       if (k == 1) cycle
       if (.not. curve%a(k) > curve%a(k - 1)) call deck%complain(head + k, 'A', &
-        'expected an abscissa greater than that of the card before')
+          'expected an abscissa greater than that of the card before')
     end do
   end subroutine read_curve
 
@@ -92,8 +92,7 @@ contains
     end if
     if (row > 0) return
     call deck%complain(record, trim(merge('NSID', 'NID ', is_set)), &
-                       trim(merge('node set', 'node    ', is_set))//' '//to_text(id)// &
-                         ' is not defined')
+        trim(merge('node set', 'node    ', is_set))//' '//to_text(id)//' is not defined')
     allocate (list(0))
   end subroutine nodes_of
 
@@ -141,12 +140,11 @@ contains
     end do
     curve_row = 0
     call deck%complain(record, 'LCID', 'curve '//to_text(id)//' is not defined', &
-                       'add a *DEFINE_CURVE with this number')
+        'add a *DEFINE_CURVE with this number')
   end function curve_row
 
   !> *INITIAL_VELOCITY, _NODE, _GENERATION. A node that gets two different velocities is a
-  !> problem
-  !> (which one should win?), one on a fixed direction too.
+  !> problem (which one should win?), one on a fixed direction too.
   subroutine read_initial_velocities(deck, model, nodes, parts)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
@@ -172,7 +170,7 @@ contains
           case (3)
             call generation_nodes(deck, model, parts, r, list)
             call give_velocity(deck, model, r, list, deck%real(r, 'OMEGA'), &
-                               [deck%real(r + 1, 'XC'), deck%real(r + 1, 'YC')], owner)
+                [deck%real(r + 1, 'XC'), deck%real(r + 1, 'YC')], owner)
           end select
         end do
         b = deck%next_block(trim(keyword(k)), b)
@@ -226,13 +224,13 @@ contains
         end associate
       end if
     end select
-    if (row == 0 .and. id /= 0) call deck%complain(record, 'ID', &
-      'nothing of this kind has number '// &
-      to_text(id), 'STYP says what ID is: 1 a part set, 2 a part, 3 a node set')
+    if (row == 0 .and. id /= 0) &
+        call deck%complain(record, 'ID', 'nothing of this kind has number '//to_text(id), &
+        'STYP says what ID is: 1 a part set, 2 a part, 3 a node set')
     do k = 1, model%elements
       if (model%element_part(k) == 0) cycle
       if (wanted(model%element_part(k))) &
-        taken(pack(model%connectivity(:, k), model%connectivity(:, k) > 0)) = .true.
+          taken(pack(model%connectivity(:, k), model%connectivity(:, k) > 0)) = .true.
     end do
     list = pack([(k, k=1, model%nodes)], taken)
   end subroutine generation_nodes
@@ -255,15 +253,15 @@ contains
       if (.not. told .and. owner(i) > 0 .and. owner(i) /= record) then
         if (any(abs(model%v0(:, i) - v) > zero)) then
           call deck%complain(record, 'VX', 'node '//to_text(model%node_id(i))// &
-            ' gets a second, different initial velocity', 'the first is at '// &
+              ' gets a second, different initial velocity', 'the first is at '// &
               deck%place(owner(i)))
           told = .true.
         end if
       end if
       if (.not. told .and. any(model%fixed(:, i) .and. abs(v) > zero)) then
-        call deck%complain(record, merge('VX', 'VY', model%fixed(1, i) .and. abs(v(1)) &
-          > zero), &
-          'initial velocity on a fixed direction of node '//to_text(model%node_id(i)))
+        call deck%complain(record, &
+            merge('VX', 'VY', model%fixed(1, i) .and. abs(v(1)) > zero), &
+            'initial velocity on a fixed direction of node '//to_text(model%node_id(i)))
         told = .true.
       end if
       model%v0(:, i) = v

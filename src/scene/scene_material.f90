@@ -45,7 +45,7 @@ contains
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
     call add_warning(deck%problems, deck%place(record)//': PR > 0.49 of material '// &
-      to_text(deck%integer(record, 'MID'))//': fully integrated quadrilaterals lock')
+        to_text(deck%integer(record, 'MID'))//': fully integrated quadrilaterals lock')
   end subroutine warn_locking
 
 end module scene_material

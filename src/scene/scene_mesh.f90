@@ -36,7 +36,7 @@ contains
       model%x(:, k) = deck%value(at + 2:at + 3)
       if (k == 1) z = deck%value(at + 4)
       if (abs(deck%value(at + 4) - z) > zero) call deck%complain(record(k), 'Z', &
-        'expected the z of the first node: the model is plane')
+          'expected the z of the first node: the model is plane')
     end do
     call make_id_map(deck, 'node', 'NID', model%node_id, record, nodes)
   end subroutine read_nodes
@@ -91,9 +91,9 @@ contains
           if (model%material(m)%item%id == p%material_id) p%material = m
         end do
         if (p%plane == 0) call deck%complain(record(k), 'SECID', 'section '// &
-          to_text(p%section_id)//' is not defined', 'add a *SECTION_SHELL with this number')
+            to_text(p%section_id)//' is not defined', 'add a *SECTION_SHELL with this number')
         if (p%material == 0) call deck%complain(record(k), 'MID', 'material '// &
-          to_text(p%material_id)//' is not defined', 'add a *MAT_ELASTIC with this number')
+            to_text(p%material_id)//' is not defined', 'add a *MAT_ELASTIC with this number')
       end associate
     end do
     call make_id_map(deck, 'part', 'PID', model%part%id, record, parts)
@@ -113,16 +113,16 @@ contains
       ids(k) = section(k)%id
       if (section(k)%plane /= plane_stress .and. section(k)%plane /= plane_strain) then
         call deck%complain(record(k), 'ELFORM', &
-          'expected 12 (plane stress) or 13 (plane strain)', &
-                           'other element forms are not available in this version')
+            'expected 12 (plane stress) or 13 (plane strain)', &
+            'other element forms are not available in this version')
         section(k)%plane = plane_strain
       end if
       if (deck%integer(record(k), 'NIP') /= 4) call deck%complain(record(k), 'NIP', &
-        'expected 4 or blank: elements are integrated with 2 x 2 points')
+          'expected 4 or blank: elements are integrated with 2 x 2 points')
       if (record(k) < deck%records) then
-        if (deck%record(record(k) + 1)%block == deck%record(record(k))%block .and. &
-            deck%record(record(k) + 1)%card == 2) call read_thickness(deck, record(k) &
-              + 1, section(k))
+        if (deck%record(record(k) + 1)%block == deck%record(record(k))%block &
+            .and. deck%record(record(k) + 1)%card == 2) &
+            call read_thickness(deck, record(k) + 1, section(k))
       end if
     end do
     call make_id_map(deck, 'section', 'SECID', ids, record, map)
@@ -138,8 +138,7 @@ contains
     do k = 1, 3
       if (.not. deck%is_given(record, other(k))) cycle
       if (abs(deck%real(record, other(k)) - section%thickness) > zero) &
-        call deck%complain(record, &
-        other(k), 'expected the same thickness as T1, or blank')
+          call deck%complain(record, other(k), 'expected the same thickness as T1, or blank')
     end do
   end subroutine read_thickness
 
@@ -161,7 +160,7 @@ contains
       model%element_id(k) = nint(deck%value(at + 1))
       model%element_part(k) = parts%find(nint(deck%value(at + 2)))
       if (model%element_part(k) == 0) call deck%complain(record(k), 'PID', 'part '// &
-        to_text(nint(deck%value(at + 2)))//' is not defined', 'add a *PART with this number')
+          to_text(nint(deck%value(at + 2)))//' is not defined', 'add a *PART with this number')
       call read_corners(deck, record(k), at, nodes, name, model%connectivity(:, k))
     end do
     model%element_record = record
@@ -182,7 +181,7 @@ contains
       if (id > 0) corner(m) = nodes%find(id)
       if (id == 0 .or. (m == 4 .and. id == nint(deck%value(at + 5)))) then
         call deck%complain(record, name(m), 'expected a fourth node', &
-                           'triangles are not available in this version')
+            'triangles are not available in this version')
       else if (corner(m) == 0) then
         call deck%complain(record, name(m), 'node '//to_text(id)//' is not defined')
       end if
@@ -195,9 +194,9 @@ contains
     type(model_t), intent(inout) :: model
     type(id_map_t), intent(in) :: nodes, parts
     call read_set_kind(deck, ['SET_NODE_LIST', 'SET_NODE     '], 'node', 'NID', nodes, &
-                       model%node_set)
+        model%node_set)
     call read_set_kind(deck, ['SET_PART_LIST', 'SET_PART     '], 'part', 'PID', parts, &
-                       model%part_set)
+        model%part_set)
   end subroutine read_sets
 
   subroutine read_set_kind(deck, keywords, what, member, map, sets)
@@ -223,8 +222,8 @@ contains
           associate (id => nint(deck%value(deck%record(r)%start + m)))
             if (id == 0) cycle
             row = map%find(id)
-            if (row == 0) call deck%complain(r, member//achar(48 + m), &
-              what//' '//to_text(id)//' is not defined')
+            if (row == 0) call deck%complain(r, member//achar(48 + m), what//' '// &
+                to_text(id)//' is not defined')
           end associate
           n = n + 1
           sets(k)%member(n) = row
@@ -250,14 +249,14 @@ contains
       used(model%connectivity(:, e)) = .true.
       if (element%smallest_jacobian(model%x(:, model%connectivity(:, e))) > zero) cycle
       call deck%complain(model%element_record(e), '', 'element '// &
-        to_text(model%element_id(e))// &
-        ' is clockwise, degenerate or not convex', 'list its nodes counter-clockwise')
+          to_text(model%element_id(e))//' is clockwise, degenerate or not convex', &
+          'list its nodes counter-clockwise')
     end do
     if (all(used)) return
     call records_of(deck, 'NODE', 1, record)
     do k = 1, model%nodes
       if (.not. used(k)) call deck%complain(record(k), 'NID', 'node '// &
-        to_text(model%node_id(k))//' belongs to no element')
+          to_text(model%node_id(k))//' belongs to no element')
     end do
   end subroutine check_mesh
 

@@ -42,8 +42,8 @@ contains
       call read_requests(deck, model, nodes)
     end if
     if (deck%problems%count == 0) call check_mesh(deck, model)
-    if (deck%problems%count > 0) call fail(status, status_deck, &
-      to_text(deck%problems%count)//' problem(s) in the deck; nothing was computed')
+    if (deck%problems%count > 0) call fail(status, status_deck, to_text(deck%problems%count)// &
+        ' problem(s) in the deck; nothing was computed')
   end subroutine make_scene
 
 end module scene_model

@@ -1,9 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a time scheme is: a list of stages. A stage gives the effective matrix A = cM M + cC C +
-!> cK K,
-!> the right-hand side of the free motion, and the update; contact is posed on the motion x of
-!> the
-!> stage by the one contact routine, which is never told which scheme calls it.
+!> cK K, the right-hand side of the free motion, and the update; contact is posed on the motion
+!> x of the stage by the one contact routine, which is never told which scheme calls it.
 module time_base
   use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one

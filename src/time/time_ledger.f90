@@ -35,8 +35,7 @@ module time_ledger
     real(wp), allocatable :: part_mass(:)
     real(wp), allocatable :: mv(:, :)
     !> Part of each node; 0 where several parts meet: such a node counts in equal shares for
-    !> every
-    !> element corner there, listed in corner(:, (node, part)) with corner_share.
+    !> every element corner there, listed in corner(:, (node, part)) with corner_share.
     integer, allocatable :: owner(:)
     integer, allocatable :: corner(:, :)
     real(wp), allocatable :: corner_share(:)
@@ -56,7 +55,7 @@ contains
     parts = size(model%part)
     allocate (ledger%part_kinetic(parts), ledger%part_internal(parts))
     allocate (ledger%part_momentum(2, parts), ledger%part_mass(parts), &
-      ledger%mv(2, model%nodes))
+        ledger%mv(2, model%nodes))
     call find_owners(model, ledger)
     ledger%part_mass = zero
     do i = 1, model%nodes
@@ -157,11 +156,11 @@ contains
     ledger%total = ledger%kinetic + ledger%internal
     source = ledger%initial + ledger%external + ledger%motion
     ledger%largest = max(ledger%largest, ledger%kinetic, ledger%internal, abs(ledger%total), &
-                         abs(ledger%initial), abs(ledger%external), abs(ledger%motion), &
-                         abs(ledger%contact%friction), abs(ledger%contact%normal), &
-                         abs(ledger%algorithmic), abs(ledger%damping))
+        abs(ledger%initial), abs(ledger%external), abs(ledger%motion), &
+        abs(ledger%contact%friction), abs(ledger%contact%normal), abs(ledger%algorithmic), &
+        abs(ledger%damping))
     misfit = ledger%total - source + ledger%contact%friction + ledger%contact%normal &
-             - ledger%contact%unsolved + ledger%algorithmic + ledger%damping
+        - ledger%contact%unsolved + ledger%algorithmic + ledger%damping
     ledger%residual = zero
     if (ledger%largest > zero) ledger%residual = misfit/ledger%largest
     ledger%worst_residual = max(ledger%worst_residual, abs(ledger%residual))

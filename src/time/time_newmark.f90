@@ -2,8 +2,7 @@
 !> Newmark's method (1959):
 !>   V1 = V0 + h [(1 - gamma) A0 + gamma A1],  U1 = U0 + h V0 + h^2 [(1/2 - beta) A0 + beta A1],
 !> contact force at the end of the step, r1. On impact it gains energy without bound: it is here
-!> to
-!> be compared with.
+!> to be compared with.
 !> One stage: [M/(beta h^2) + K] x = M D/(beta h^2) - K U0 + P1 + R1, D = h V0 + h^2 (1/2 -
 !> beta) A0.
 module time_newmark
@@ -52,8 +51,7 @@ contains
   end subroutine newmark_set_step
 
   !> A0 from M A0 = P0 - K U0. Where the mass is singular the acceleration is zero, if the right
-  !> side
-  !> allows it; else the start fails.
+  !> side allows it; else the start fails.
   subroutine newmark_start(this, model, system, state, status)
     class(newmark_t), intent(inout) :: this
     type(model_t), intent(in) :: model
@@ -81,11 +79,10 @@ contains
     call solve_whole(solver, f, state%a)
     call multiply_mass(system, -one, state%a, f)
     call clear_fixed(system, f)
-    if (maxval(abs(f)) > 1.0e-9_wp*size_f) call fail(status, status_numerical, &
-      'NEWMARK cannot '// &
-      'start: the mass '//trim(model%controls%mass)// &
-        ' is singular and the loads at t = 0 act '// &
-      'where it is zero', hint='choose another mass, or SCHEME THETA')
+    if (maxval(abs(f)) > 1.0e-9_wp*size_f) &
+        call fail(status, status_numerical, 'NEWMARK cannot start: the mass '// &
+        trim(model%controls%mass)//' is singular and the loads at t = 0 act '// &
+        'where it is zero', hint='choose another mass, or SCHEME THETA')
   end subroutine newmark_start
 
   subroutine newmark_right_side(this, stage, system, state, b)
@@ -111,8 +108,8 @@ contains
     do i = 1, size(x, 2)
       do k = 1, 2
         a1 = (x(k, i) - this%d(k, i))*this%stage(1)%c_m
-        state%v(k, i) = state%v(k, i) + this%h*((one - this%gamma)*state%a(k, i) &
-          + this%gamma*a1)
+        state%v(k, i) = state%v(k, i) &
+            + this%h*((one - this%gamma)*state%a(k, i) + this%gamma*a1)
         state%a(k, i) = a1
         state%u(k, i) = state%u(k, i) + x(k, i)
       end do
@@ -127,11 +124,10 @@ contains
     real(wp) :: c
     c = (this%beta - half*this%gamma)*this%h**2
     newmark_dissipation = half*c*(mass_product(system, state%a, state%a) &
-                                  - mass_product(system, this%a_before, this%a_before))
+        - mass_product(system, this%a_before, this%a_before))
     this%a_before = state%a - this%a_before
-    newmark_dissipation = newmark_dissipation + (this%gamma - half)*( &
-                          strain_product(system, state%du) &
-                          + c*mass_product(system, this%a_before, this%a_before))
+    newmark_dissipation = newmark_dissipation + (this%gamma - half)*(strain_product(system, &
+        state%du) + c*mass_product(system, this%a_before, this%a_before))
   end function newmark_dissipation
 
 end module time_newmark

@@ -24,7 +24,7 @@ contains
       allocate (scheme, source=newmark_t(gamma=controls%gamma, beta=controls%beta))
     case default
       call fail(status, status_deck, 'time scheme "'//trim(controls%scheme)// &
-        '" is not available')
+          '" is not available')
       return
     end select
     call scheme%set_step(controls%dt)

@@ -90,10 +90,10 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     theta_dissipation = zero
-    if (this%theta > half) theta_dissipation = (this%theta - half)*mass_product(system, &
-      this%dv, this%dv)
+    if (this%theta > half) &
+        theta_dissipation = (this%theta - half)*mass_product(system, this%dv, this%dv)
     if (this%xi > half) theta_dissipation = theta_dissipation &
-                                            + (this%xi - half)*strain_product(system, state%du)
+        + (this%xi - half)*strain_product(system, state%du)
   end function theta_dissipation
 
 end module time_theta
