@@ -4,7 +4,8 @@
 # A test is a built program of tests/unit, an executable tests/*/*.sh or tests/*/*/run.sh, or the
 # style check. Exit code 0 = passed, 77 = skipped (its last line says why), else failed. A test that
 # prints a line "N passed, N failed" is counted by it. Each test gets BIPACT, PYTHON, ROOT and an
-# empty directory TMP. Settings: FLAVOUR, JOBS (tests at once), LIMIT (seconds a test may take).
+# empty directory TMP. Settings: FLAVOUR, JOBS (tests at once), LIMIT (seconds a test may take),
+# SHOW=1 (print the measured figures of the deck tests beside their bounds).
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
@@ -85,6 +86,7 @@ report() {
     echo "skip $name: $(tail -n 1 "$base.out")"
   else
     echo "ok   $name"
+    [ -z "${SHOW:-}" ] || sed 's/^/       /' "$base.out"
   fi
   rm "$base.out" "$base.status"
   ((f > 0)) || rm -rf "$base.tmp"

@@ -8,8 +8,8 @@ module assembly_forces
   use model_data, only: model_t, curve_value
   implicit none
   private
-  public :: subtract_internal_force, strain_energies, strain_product, add_loads, &
-      largest_rotation
+  public :: subtract_internal_force, subtract_damping_force, damping_product, strain_energies, &
+      strain_product, add_loads, largest_rotation
 
 contains
 
@@ -22,6 +22,21 @@ contains
     call internal_kernel(size(system%corner, 2), system%n, system%corner, system%stiffness, &
         factor, u, f)
   end subroutine subtract_internal_force
+
+  !> f = f - factor * C u; u, f (2, n).
+  subroutine subtract_damping_force(system, factor, u, f)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: f(:, :)
+    integer :: k
+    do k = 1, size(system%damped)
+      associate (e => system%damped(k))
+        call internal_kernel(1, system%n, system%corner(:, e), system%stiffness(:, :, e), &
+            factor, u, f)
+      end associate
+    end do
+  end subroutine subtract_damping_force
 
   pure subroutine internal_kernel(elements, n, corner, k, factor, u, f)
     integer, intent(in) :: elements, n
@@ -81,6 +96,17 @@ contains
       strain_product = strain_product + element_product(system, e, u)
     end do
   end function strain_product
+
+  !> u.C u [F L].
+  pure real(wp) function damping_product(system, u)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: u(:, :)
+    integer :: k
+    damping_product = zero
+    do k = 1, size(system%damped)
+      damping_product = damping_product + element_product(system, system%damped(k), u)
+    end do
+  end function damping_product
 
   pure real(wp) function element_product(system, e, u)
     type(system_t), intent(in) :: system

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The matrices of the bodies: node graph, mass, element stiffness, and the effective matrix of
-!> a time scheme, A = cM M + cC C + cK K (no damping yet: C = 0).
+!> a time scheme, A = cM M + cC C + cK K, with C = K of the elements that hold massless nodes.
 module assembly_system
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
@@ -23,6 +23,7 @@ module assembly_system
     !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
     !> drops out before anything is multiplied, so a flying body has no internal force at all.
     real(wp), allocatable :: stiffness(:, :, :)
+    integer, allocatable :: damped(:)         !< elements with a massless node: those of C
     logical, allocatable :: fixed(:, :)       !< (2, n)
     logical :: any_fixed = .false.
     integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
@@ -49,12 +50,26 @@ contains
     call graph_from_cliques(model%nodes, clique_first, clique, system%graph)
     call assemble_mass(model, first, target, system)
     call assemble_stiffness(model, system)
+    call find_damped(model, massless, system)
     system%fixed = model%fixed
     system%any_fixed = any(model%fixed)
     allocate (system%fixed_list(2, count(model%fixed)))
     system%fixed_list(1, :) = pack(spread([1, 2], 2, model%nodes), model%fixed)
     system%fixed_list(2, :) = pack(spread([(k, k=1, model%nodes)], 1, 2), model%fixed)
   end subroutine make_system
+
+  !> Elements that hold a massless node.
+  pure subroutine find_damped(model, massless, system)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: massless(:)
+    type(system_t), intent(inout) :: system
+    logical :: is_massless(model%nodes)
+    integer :: e
+    is_massless = .false.
+    is_massless(massless) = .true.
+    system%damped = pack([(e, e=1, model%elements)], &
+        [(any(is_massless(model%connectivity(:, e))), e=1, model%elements)])
+  end subroutine find_damped
 
   !> Each element's nodes together with the nodes that take over their mass.
   pure subroutine element_cliques(model, first, target, clique_first, clique)
@@ -147,16 +162,25 @@ contains
     end do
   end subroutine assemble_stiffness
 
-  !> A = cM M + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal only,
-  !> so that a right-hand side of zero there gives a displacement of zero.
-  subroutine effective_matrix(system, c_m, c_k, matrix)
+  !> A = cM M + cC C + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal
+  !> only, so that a right-hand side of zero there gives a displacement of zero.
+  subroutine effective_matrix(system, c_m, c_c, c_k, matrix)
     type(system_t), intent(in) :: system
-    real(wp), intent(in) :: c_m, c_k
+    real(wp), intent(in) :: c_m, c_c, c_k
     type(block_matrix_t), intent(inout) :: matrix
-    integer :: i, k
+    integer :: e, i, k
     if (.not. allocated(matrix%value)) allocate (matrix%value(2, 2, size(system%graph%column)))
     matrix%value = zero
-    if (abs(c_k) > zero) call add_stiffness(system, c_k, matrix)
+    if (abs(c_k) > zero) then
+      do e = 1, size(system%corner, 2)
+        call add_stiffness(system, e, c_k, matrix)
+      end do
+    end if
+    if (abs(c_c) > zero) then
+      do k = 1, size(system%damped)
+        call add_stiffness(system, system%damped(k), c_c, matrix)
+      end do
+    end if
     do k = 1, size(system%graph%column)
       matrix%value(1, 1, k) = matrix%value(1, 1, k) + c_m*system%mass(k)
       matrix%value(2, 2, k) = matrix%value(2, 2, k) + c_m*system%mass(k)
@@ -181,26 +205,26 @@ contains
     end do
   end subroutine clear_block
 
-  subroutine add_stiffness(system, c_k, matrix)
+  !> matrix = matrix + factor * K of element e.
+  pure subroutine add_stiffness(system, e, factor, matrix)
     type(system_t), intent(in) :: system
-    real(wp), intent(in) :: c_k
+    integer, intent(in) :: e
+    real(wp), intent(in) :: factor
     type(block_matrix_t), intent(inout) :: matrix
     real(wp) :: ke(8, 8)
-    integer :: e, i, j, k
-    do e = 1, size(system%corner, 2)
-      ke(3:8, 3:8) = c_k*system%stiffness(:, :, e)
-      do i = 1, 2
-        ke(i, 3:8) = -(ke(i + 2, 3:8) + ke(i + 4, 3:8) + ke(i + 6, 3:8))
-      end do
-      ke(3:8, 1:2) = transpose(ke(1:2, 3:8))
-      do i = 1, 2
-        ke(i, 1:2) = -(ke(i + 2, 1:2) + ke(i + 4, 1:2) + ke(i + 6, 1:2))
-      end do
-      do j = 1, 4
-        do i = 1, 4
-          k = system%graph%position(system%corner(i, e), system%corner(j, e))
-          matrix%value(:, :, k) = matrix%value(:, :, k) + ke(2*i - 1:2*i, 2*j - 1:2*j)
-        end do
+    integer :: i, j, k
+    ke(3:8, 3:8) = factor*system%stiffness(:, :, e)
+    do i = 1, 2
+      ke(i, 3:8) = -(ke(i + 2, 3:8) + ke(i + 4, 3:8) + ke(i + 6, 3:8))
+    end do
+    ke(3:8, 1:2) = transpose(ke(1:2, 3:8))
+    do i = 1, 2
+      ke(i, 1:2) = -(ke(i + 2, 1:2) + ke(i + 4, 1:2) + ke(i + 6, 1:2))
+    end do
+    do j = 1, 4
+      do i = 1, 4
+        k = system%graph%position(system%corner(i, e), system%corner(j, e))
+        matrix%value(:, :, k) = matrix%value(:, :, k) + ke(2*i - 1:2*i, 2*j - 1:2*j)
       end do
     end do
   end subroutine add_stiffness

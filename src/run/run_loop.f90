@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The step loop.
 module run_loop
-  use assembly_forces, only: add_loads, largest_rotation, subtract_internal_force
+  use assembly_forces, only: add_loads, largest_rotation, subtract_internal_force, &
+      subtract_damping_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
   use base_signal, only: stop_asked
@@ -92,6 +93,7 @@ contains
     call run%timers%enter(phase_product)
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
+    call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
     if (run%plan%contact) then
       do k = 1, size(run%contact%block)
         run%b(:, run%contact%block(k)) = run%b(:, run%contact%block(k)) + run%force(:, k)

@@ -106,8 +106,9 @@ contains
     integer :: m
     if (failed(status)) return
     call run%timers%enter(phase_factor)
-    call effective_matrix(run%system, run%scheme%stage(1)%c_m, &
-        run%scheme%stage(1)%c_k, run%matrix)
+    associate (stage => run%scheme%stage(1))
+      call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_k, run%matrix)
+    end associate
     if (.not. run%plan%contact) allocate (run%contact%block(0), run%contact%pair(0))
     m = size(run%contact%block)
     if (again) then

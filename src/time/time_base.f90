@@ -15,7 +15,7 @@ module time_base
 
   type, public :: stage_t
     real(wp) :: c_m = zero   !< [1/T2]
-    real(wp) :: c_c = zero   !< [1/T]
+    real(wp) :: c_c = zero   !< on the damping of massless nodes
     real(wp) :: c_k = zero
     integer :: level = level_position
   end type stage_t

@@ -72,7 +72,7 @@ contains
     size_f = maxval(abs(f))
     if (.not. size_f > zero) return
     call make_solver(solver_options_t(engine='LDLT', null_pivot=null_pivot), solver, status)
-    call effective_matrix(system, one, zero, matrix)
+    call effective_matrix(system, one, zero, zero, matrix)
     call solver%analyse(system%graph, [integer ::], status)
     call solver%factor(system%graph, matrix, status)
     if (failed(status)) return

@@ -5,35 +5,22 @@ turned scene has other round-off in its coordinates (1e-15 of 10 in a gap of 0.0
 1e-14 moves the raw force by 4e-8, and the displacement stays a factor 1e3 below its bound.
 Powers of two change no digit at all.
 """
-import math
 import os
-import subprocess
 import sys
 
-sys.path.insert(0, os.path.join(os.environ["ROOT"], "scripts"))
+sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
-import make_bars
+import scenes
 import tables
-
-BIPACT, TMP = os.environ["BIPACT"], os.environ["TMP"]
-passed = failed = 0
-
-
-def report(ok, text):
-    """One line for a failed check; counts all."""
-    global passed, failed
-    passed, failed = passed + ok, failed + (not ok)
-    if not ok:
-        print("FAIL", text)
+from scenes import at_most, bipact, check, finish
 
 
 def run(name, **options):
     """Writes the deck, runs it, returns (meta data, run folder)."""
-    deck = os.path.join(TMP, name + ".k")
-    meta = make_bars.write(deck, **options)
-    folder = os.path.join(TMP, name)
-    done = subprocess.run([BIPACT, deck, "-o", folder, "--quiet"], stderr=subprocess.PIPE, text=True)
-    report(done.returncode == 0, "%s: exit %d %s" % (name, done.returncode, done.stderr))
+    deck, folder = os.path.join(scenes.TMP, name + ".k"), os.path.join(scenes.TMP, name)
+    meta = scenes.make_bars.write(deck, **options)
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    check(code == 0, "%s: exit %d %s" % (name, code, errors))
     return meta, folder
 
 
@@ -70,12 +57,15 @@ def same(name, a, b, lateral=1.0):
         if key in ("friction", "contact", "internal"):
             scale = np.abs(a["kinetic"][0]).max()
         off = np.abs(values - other).max() / scale
-        report(off <= bound, "%s: %s differs by %.2e (bound %.0e)" % (name, key, off, bound))
+        at_most(off, bound, "%s: difference of %s" % (name, key))
 
 
 SCENES = {"theta": dict(nx=40, dt=5e-5, touch=0.5),
           "friction": dict(nx=20, ny=2, dt=5e-5, touch=0.5, mu=0.3, poisson=0.3, slide=0.1, nx2=26,
                            ny2=3),
+          # NEWMARK is compared until the first release, soon after the touch: then it is chaotic (a gap changed by 1e-14
+          # changes the displacement by 12 %).
+          "newmark": dict(nx=40, dt=5e-5, touch=0.5, scheme="NEWMARK", tend=0.0102),
           "massless": dict(nx=40, dt=5e-5, mass="DISPERSION", redist=1, touch=0.25)}
 
 
@@ -101,7 +91,7 @@ def bit_for_bit(name, base, folder, scales):
         a, b = tables.read_run(base, table), tables.read_run(folder, table)
         for column, unit in scales[table].items():
             equal = np.array_equal(a[column] * unit, b[column])
-            report(equal, "%s: %s.%s is not bitwise equal" % (name, table, column))
+            check(equal, "%s: %s.%s is not bitwise equal" % (name, table, column))
 
 
 def units():
@@ -128,10 +118,9 @@ def readings():
         for key, power in (("u left", 10.0), ("kinetic", 100.0), ("impulse", 10.0), ("fm", 10.0)):
             values, bound = a[key]
             off = np.abs(b[key][0] / power - values).max() / np.abs(values).max()
-            report(off <= bound, "reading B: %s differs by %.2e" % (key, off))
+            at_most(off, bound, "reading B: difference of " + key)
 
 
 if __name__ == "__main__":
     {"placements": placements, "units": units, "readings": readings}[sys.argv[1]]()
-    print("%d passed, %d failed" % (passed, failed))
-    sys.exit(failed > 0)
+    finish()

@@ -6,7 +6,7 @@ module check
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   implicit none
   private
-  public :: test_start, test_end, check_true, check_close, check_equal
+  public :: test_start, test_end, check_true, check_close, check_equal, seed_random
 
   character(:), allocatable :: suite
   integer :: n_passed = 0
@@ -32,6 +32,18 @@ contains
     print '(i0, a, i0, a)', n_passed, ' passed, ', n_failed, ' failed'
     if (n_failed > 0 .or. n_passed == 0) stop 1
   end subroutine test_end
+
+  !> Makes random_number repeat itself from run to run.
+  subroutine seed_random(seed)
+    integer, intent(in) :: seed
+    integer, allocatable :: state(:)
+    integer :: n
+
+    call random_seed(size=n)
+    allocate (state(n))
+    state = seed
+    call random_seed(put=state)
+  end subroutine seed_random
 
   !> The condition holds.
   subroutine check_true(condition, what)

@@ -23,11 +23,19 @@ def check(ok, text):
 def at_most(value, bound, text):
     """Checks value <= bound; not a number fails."""
     check(value <= bound, "%s is %.3e, more than %.3e" % (text, value, bound))
+    show("%-60s %10.3e  <= %.3e" % (text, value, bound))
 
 
 def within(value, low, high, text):
     """Checks low <= value <= high."""
     check(low <= value <= high, "%s is %.6e, not in %g .. %g" % (text, value, low, high))
+    show("%-60s %10.3e  in %g .. %g" % (text, value, low, high))
+
+
+def show(text):
+    """Prints a measured figure when SHOW is set."""
+    if os.environ.get("SHOW"):
+        print(text)
 
 
 def bipact(deck, folder, *options):

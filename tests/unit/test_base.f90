@@ -8,17 +8,12 @@ program test_base
   use base_status, only: status_t, fail, failed, add_place, status_text, status_deck, &
       status_file, status_ok
   use base_strings, only: edit_distance
-  use check, only: test_start, test_end, check_true, check_equal
+  use check, only: test_start, test_end, check_true, check_equal, seed_random
   implicit none
   type(real_writer_t) :: writer
-  integer, allocatable :: seed(:)
-  integer :: n
 
   call test_start('base')
-  call random_seed(size=n)
-  allocate (seed(n))
-  seed = 20240607
-  call random_seed(put=seed)
+  call seed_random(20240607)
   call make_real_writer(writer)
   call test_random_reals()
   call test_special_reals()

@@ -3,7 +3,7 @@
 program test_cone
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
-  use check, only: test_start, test_end, check_true, check_close, check_equal
+  use check, only: test_start, test_end, check_true, check_close, check_equal, seed_random
   use cone_certificate, only: certify, bipotential_residual, mean_diagonal
   use cone_gauss_seidel, only: solve_cone
   use cone_local, only: project_on_cone
@@ -12,14 +12,10 @@ program test_cone
   implicit none
   real(wp), parameter :: eps = epsilon(one)
   real(wp), parameter :: friction(4) = [0.0_wp, 0.1_wp, 0.3_wp, 1.0_wp]
-  integer, allocatable :: seed(:)
   integer :: k
 
   call test_start('cone')
-  call random_seed(size=k)
-  allocate (seed(k))
-  seed = 4711
-  call random_seed(put=seed)
+  call seed_random(4711)
   do k = 1, 3
     call test_projection(k)
   end do
