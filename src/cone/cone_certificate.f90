@@ -32,8 +32,9 @@ contains
     mean_diagonal = mean_diagonal/max(1, size(w, 1))
   end function mean_diagonal
 
-  !> error, error2018 and eta of (r, u); m = mean_diagonal(W).
-  pure subroutine certify(m, mu, q, r, u, tolerance, certificate)
+  !> error, error2018 and eta of (r, u); m = mean_diagonal(W). noise [L], where given, is the
+  !> round-off of q and u as differences of larger numbers: misfits of that size count as met.
+  pure subroutine certify(m, mu, q, r, u, tolerance, certificate, noise)
     real(wp), intent(in) :: m
     real(wp), intent(in) :: mu(:)
     real(wp), intent(in) :: q(:, :)
@@ -41,11 +42,13 @@ contains
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(in) :: tolerance
     type(certificate_t), intent(inout) :: certificate
+    real(wp), intent(in), optional :: noise
     real(wp) :: misfit, norm_r, norm_q, norm_u, bottom
     integer :: a
     norm_r = sqrt(sum(r**2))
     norm_q = sqrt(sum(q**2))
     norm_u = sqrt(sum(u**2))
+    if (present(noise)) norm_q = max(norm_q, noise/tolerance)
     certificate%error = zero
     certificate%eta = zero
     certificate%error2018 = zero

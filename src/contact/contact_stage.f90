@@ -48,6 +48,8 @@ contains
     acting = .true.
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
         certificate, status)
+    call keep_worst(certificate, contact%worst)
+    call keep_worst(certificate, contact%worst_since_row)
     contact%solves = contact%solves + 1
     contact%solves_since_row = contact%solves_since_row + 1
     contact%sweeps = contact%sweeps + certificate%sweeps
@@ -63,7 +65,8 @@ contains
   end subroutine solve_contact
 
   !> After the step: true gap and slip of every candidate from the motion x (2, m) of the block,
-  !> the certificate of the reactions for that motion, penetration. Fails on what a scene must
+  !> the certificate of the reactions for that motion (to the round-off of gaps and motions,
+  !> which nearly cancel at a touch), penetration. Fails on what a scene must
   !> not do in silence: penetration beyond the tolerance, prescribed motions that overlap.
   subroutine settle_contact(model, contact, du, acting, status)
     type(model_t), intent(in) :: model
@@ -72,14 +75,16 @@ contains
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
-    real(wp) :: motion(2), depth
+    real(wp) :: motion(2), depth, terms
     integer :: i, k
+    terms = zero
     do i = 1, contact%n
       associate (c => contact%candidate(i))
         motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
         c%u = [c%gap + motion(1), motion(2)]
         depth = max(zero, -c%u(1))
         if (.not. c%valid) cycle
+        terms = terms + c%gap**2 + sum(du(:, c%node)**2) + sum(du(:, c%a)**2)
         contact%pair(c%pair)%penetration = max(contact%pair(c%pair)%penetration, depth)
         contact%worst_penetration = max(contact%worst_penetration, depth/c%length)
         if (depth > contact%penetration_tolerance*c%length) &
@@ -93,7 +98,7 @@ contains
       contact%work%u(:, k) = contact%candidate(contact%row_of(k))%u(1:contact%d)
     end do
     call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
-        contact%cone%tolerance, certificate)
+        contact%cone%tolerance, certificate, 8.0_wp*epsilon(terms)*sqrt(terms))
     call keep_worst(certificate, contact%worst)
     call keep_worst(certificate, contact%worst_since_row)
   end subroutine settle_contact

@@ -54,8 +54,7 @@ def paper():
     for dt in (1.0e-5, 5.0e-5):
         errors = []
         for touch in (0.0, 0.25, 0.5, 0.75):
-            found, _ = bars("massless", mass="DISPERSION", redist=1, dt=dt, touch=touch,
-                            output="step")
+            found, _ = bars("massless", mass="DISPERSION", redist=1, dt=dt, touch=touch)
             errors.append(found["err"])
             within(found["E_end"], 0.999, 1.0 + 1e-12, "massless: energy")
         at_most(np.mean(errors), 2.0e-3, "massless, dt %g: mean displacement error" % dt)
