@@ -9,7 +9,7 @@ module assembly_forces
   implicit none
   private
   public :: subtract_internal_force, subtract_damping_force, damping_product, strain_energies, &
-      strain_product, add_loads, largest_rotation
+      strain_product, element_product, add_loads, largest_rotation
 
 contains
 
@@ -108,6 +108,7 @@ contains
     end do
   end function damping_product
 
+  !> u.K u of element e [F L].
   pure real(wp) function element_product(system, e, u)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
@@ -158,17 +159,19 @@ contains
     real(wp) :: value
     integer :: k, m
     do k = 1, size(model%load)
-      value = factor*model%load(k)%factor*curve_value(model%curve(model%load(k)%curve), time)
-      do m = 1, size(model%load(k)%node)
-        associate (entry => p(model%load(k)%direction, model%load(k)%node(m)))
-          entry = entry + value
-        end associate
-      end do
+      associate (load => model%load(k))
+        if (time < load%arrival) cycle
+        value = factor*load%factor*curve_value(model%curve(load%curve), time - load%arrival)
+        do m = 1, size(load%node)
+          p(:, load%node(m)) = p(:, load%node(m)) + value*load%force(:, m)
+        end do
+      end associate
     end do
     do k = 1, size(model%gravity)
-      value = &
-          factor*model%gravity(k)%factor*curve_value(model%curve(model%gravity(k)%curve), time)
-      p(model%gravity(k)%direction, :) = p(model%gravity(k)%direction, :) - value*system%lumped
+      associate (g => model%gravity(k))
+        value = factor*g%factor*curve_value(model%curve(g%curve), time)
+        p(g%direction, :) = p(g%direction, :) - value*system%lumped
+      end associate
     end do
   end subroutine add_loads
 

@@ -6,45 +6,47 @@ module assembly_mass
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
   use element_base, only: element_t
-  use model_data, only: model_t
+  use model_data, only: model_t, corner_count
   implicit none
   private
   public :: element_mass, redistribution_targets
 
 contains
 
-  !> Mass (4, 4) [M] of element e by the type asked for. CONSISTENT: Gauss points. LUMPED: its
-  !> row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu = c dt/h per direction,
-  !> clipped to [0, 1] (Guddati & Yue 2004, tuned to the theta-method at theta = xi = 1/2).
+  !> Mass (4, 4) [M] of element e by the type asked for; a triangle fills (3, 3). CONSISTENT:
+  !> Gauss points. LUMPED: its row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu =
+  !> c dt/h per direction, clipped to [0, 1] (Guddati & Yue 2004, tuned to the theta-method at
+  !> theta = xi = 1/2).
   pure subroutine element_mass(model, element, e, me)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element
     integer, intent(in) :: e
     real(wp), intent(out) :: me(4, 4)
-    real(wp) :: x(2, 4), nu(2), a(2), density
-    integer :: k
+    real(wp) :: x(2, element%nodes), nu(2), a(2), density
+    integer :: k, n
+    n = element%nodes
+    me = zero
     associate (part => model%part(model%element_part(e)), controls => model%controls)
-      x = model%x(:, model%connectivity(:, e))
+      x = model%x(:, model%connectivity(1:n, e))
       density = model%material(part%material)%item%density
       a = one/sqrt(3.0_wp)
       if (controls%mass == 'DISPERSION') then
         nu = controls%courant
         if (controls%courant < zero) nu = controls%dt* &
-          model%material(part%material)%item%wave_speed(part%plane)/element%widths(x)
+            model%material(part%material)%item%wave_speed(part%plane)/element%widths(x)
         nu = min(one, max(zero, nu))
         a = sqrt(2.0_wp/3.0_wp*(one - nu)*(one + nu))
       end if
-      call element%mass(x, density, part%thickness, a, me)
+      call element%mass(x, density, part%thickness, a, me(1:n, 1:n))
     end associate
-    if (model%controls%mass == 'LUMPED') then
-      do k = 1, 4
-        me(k, k) = sum(me(:, k))
-      end do
-      do k = 1, 4
-        me(k + 1:, k) = zero
-        me(:k - 1, k) = zero
-      end do
-    end if
+    if (model%controls%mass /= 'LUMPED') return
+    do k = 1, n
+      me(k, k) = sum(me(:, k))
+    end do
+    do k = 1, n
+      me(k + 1:, k) = zero
+      me(:k - 1, k) = zero
+    end do
   end subroutine element_mass
 
   !> Where the mass of each node goes: itself, or for a massless contact node the inner
@@ -82,13 +84,14 @@ contains
     type(model_t), intent(in) :: model
     logical, intent(in) :: is_contact(:)
     integer, intent(inout) :: inner(:, :), count(:)
-    integer :: e, k, s, i, j
+    integer :: e, k, s, i, j, n
     do e = 1, model%elements
-      do k = 1, 4
+      n = corner_count(model%connectivity(:, e))
+      do k = 1, n
         i = model%connectivity(k, e)
         if (.not. is_contact(i)) cycle
-        do s = 1, 3, 2
-          j = model%connectivity(1 + mod(k - 1 + s, 4), e)
+        do s = 1, n - 1, n - 2
+          j = model%connectivity(1 + mod(k - 1 + s, n), e)
           if (is_contact(j) .or. count(i) == size(inner, 1)) cycle
           if (any(inner(1:count(i), i) == j)) cycle
           count(i) = count(i) + 1

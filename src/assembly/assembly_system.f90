@@ -5,10 +5,10 @@ module assembly_system
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
   use assembly_mass, only: element_mass, redistribution_targets
-  use element_base, only: element_t
+  use element_base, only: element_slot_t
   use element_registry, only: make_element
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product
-  use model_data, only: model_t
+  use model_data, only: model_t, corner_count
   implicit none
   private
 
@@ -29,7 +29,8 @@ module assembly_system
     integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
   end type system_t
 
-  public :: make_system, effective_matrix, multiply_mass, clear_fixed, stiffness_ratio
+  public :: make_system, effective_matrix, multiply_mass, clear_fixed, list_fixed, &
+      stiffness_ratio
 
 contains
 
@@ -41,7 +42,6 @@ contains
     type(system_t), intent(out) :: system
     type(status_t), intent(inout) :: status
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
-    integer :: k
     system%n = model%nodes
     system%corner = model%connectivity
     call redistribution_targets(model, massless, first, target, status)
@@ -52,10 +52,7 @@ contains
     call assemble_stiffness(model, system)
     call find_damped(model, massless, system)
     system%fixed = model%fixed
-    system%any_fixed = any(model%fixed)
-    allocate (system%fixed_list(2, count(model%fixed)))
-    system%fixed_list(1, :) = pack(spread([1, 2], 2, model%nodes), model%fixed)
-    system%fixed_list(2, :) = pack(spread([(k, k=1, model%nodes)], 1, 2), model%fixed)
+    call list_fixed(system)
   end subroutine make_system
 
   !> Elements that hold a massless node.
@@ -104,14 +101,15 @@ contains
     type(model_t), intent(in) :: model
     integer, intent(in) :: first(:), target(:)
     type(system_t), intent(inout) :: system
-    class(element_t), allocatable :: element
+    type(element_slot_t) :: element(3:4)
     real(wp) :: me(4, 4), share
     integer :: e, i, j, a, b, position
-    call make_element(4, element)
+    call make_element(3, element(3)%item)
+    call make_element(4, element(4)%item)
     allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
     system%mass = zero
     do e = 1, model%elements
-      call element_mass(model, element, e, me)
+      call element_mass(model, element(corner_count(model%connectivity(:, e)))%item, e, me)
       do j = 1, 4
         associate (nj => model%connectivity(j, e))
           do i = 1, 4
@@ -145,18 +143,23 @@ contains
     end do
   end subroutine row_sums
 
+  !> A triangle is a quadrilateral whose fourth node adds nothing.
   subroutine assemble_stiffness(model, system)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
-    class(element_t), allocatable :: element
+    type(element_slot_t) :: element(3:4)
     real(wp) :: ke(8, 8)
-    integer :: e
-    call make_element(4, element)
+    integer :: e, n
+    call make_element(3, element(3)%item)
+    call make_element(4, element(4)%item)
     allocate (system%stiffness(6, 6, model%elements))
     do e = 1, model%elements
+      n = corner_count(model%connectivity(:, e))
+      ke = zero
       associate (part => model%part(model%element_part(e)))
-        call element%stiffness(model%x(:, model%connectivity(:, e)), &
-            model%material(part%material)%item%moduli(part%plane), part%thickness, ke)
+        call element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
+            model%material(part%material)%item%moduli(part%plane), part%thickness, &
+            ke(1:2*n, 1:2*n))
       end associate
       system%stiffness(:, :, e) = ke(3:8, 3:8)
     end do
@@ -260,6 +263,23 @@ contains
           factor, x, y)
     end if
   end subroutine multiply_mass
+
+  !> fixed_list and any_fixed from fixed.
+  pure subroutine list_fixed(system)
+    type(system_t), intent(inout) :: system
+    integer :: k, d, n
+    system%any_fixed = any(system%fixed)
+    if (allocated(system%fixed_list)) deallocate (system%fixed_list)
+    allocate (system%fixed_list(2, count(system%fixed)))
+    n = 0
+    do k = 1, system%n
+      do d = 1, 2
+        if (.not. system%fixed(d, k)) cycle
+        n = n + 1
+        system%fixed_list(:, n) = [d, k]
+      end do
+    end do
+  end subroutine list_fixed
 
   !> Sets the entries of fixed dofs to zero.
   pure subroutine clear_fixed(system, x)

@@ -9,7 +9,8 @@ module contact_condense
   use contact_types, only: contact_t, candidate_t
   implicit none
   private
-  public :: block_outgrown, make_block, track_candidates, build_w, relative_motion, spread_force
+  public :: block_outgrown, make_block, track_candidates, build_w, relative_motion, &
+      spread_force, subtract_contact_force
 
 contains
 
@@ -90,17 +91,14 @@ contains
     n = 0
     do i = 1, contact%n
       if (.not. contact%candidate(i)%valid) cycle
-      if (candidate_flexibility(contact, i, i, 1, 1) <= epsilon(one)*scale) then
-        contact%candidate(i)%valid = .false.
-        contact%w_is_current = .false.
-      else
-        n = n + 1
-      end if
+      contact%candidate(i)%held = candidate_flexibility(contact, i, i, 1, &
+          1) <= epsilon(one)*scale
+      if (.not. contact%candidate(i)%held) n = n + 1
     end do
     call size_rows(contact, n)
     n = 0
     do i = 1, contact%n
-      if (.not. contact%candidate(i)%valid) cycle
+      if (.not. contact%candidate(i)%valid .or. contact%candidate(i)%held) cycle
       n = n + 1
       contact%row_of(n) = i
       contact%mu(n) = contact%pair(contact%candidate(i)%pair)%mu
@@ -195,5 +193,23 @@ contains
       f(:, b) = f(:, b) - c%xi*force
     end associate
   end subroutine spread_force
+
+  !> f = f - factor * H' r of all candidates, f (2, nodes).
+  pure subroutine subtract_contact_force(contact, factor, f)
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: factor
+    real(wp), intent(inout) :: f(:, :)
+    real(wp) :: force(2)
+    integer :: i
+    do i = 1, contact%n
+      associate (c => contact%candidate(i))
+        if (.not. c%r(1) > zero) cycle
+        force = factor*(c%normal*c%r(1) + edge_tangent(c%normal)*c%r(2))
+        f(:, c%node) = f(:, c%node) - force
+        f(:, c%a) = f(:, c%a) + (one - c%xi)*force
+        f(:, c%b) = f(:, c%b) + c%xi*force
+      end associate
+    end do
+  end subroutine subtract_contact_force
 
 end module contact_condense

@@ -70,6 +70,7 @@ contains
     real(wp) :: distance
     integer :: k
     contact%searches = contact%searches + 1
+    contact%searched = p
     associate (pair => contact%pair(p))
       reach = listing_distance(pair, du, v, h)
       call obstacle_box(model, pair, u, low, high)

@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Contact at the start of a run, and the decision to search.
 module contact_setup
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, failed
-  use cone_types, only: cone_options_t
+  use cone_types, only: cone_options_t, contact_open
   use contact_condense, only: block_outgrown, make_block, track_candidates
   use contact_search, only: test_sleep, search_pair
   use contact_surface, only: make_surface, surface_t
-  use contact_types, only: contact_t
-  use model_data, only: model_t
+  use contact_types, only: contact_t, pair_t, no_gap
+  use model_data, only: model_t, segment_owner
   implicit none
   private
   public :: make_contact, find_candidates, contact_nodes
@@ -32,20 +32,69 @@ contains
     do p = 1, size(model%contact)
       if (model%contact(p)%mu > zero) contact%d = 2
       do s = 1, 2
-        call make_surface(model, model%contact(p)%side(s), side(s))
+        call make_surface(model, model%contact(p)%kind(s), model%contact(p)%side(s), side(s))
       end do
       associate (pair => contact%pair(p))
         pair%id = model%contact(p)%id
         pair%mu = model%contact(p)%mu
         pair%birth = model%contact(p)%birth
         pair%death = model%contact(p)%death
-        s = merge(2, 1, side(2)%mean_length < side(1)%mean_length*(one - 1.0e-6_wp))
+        s = model%contact(p)%contactor
+        if (s == 0) s = merge(2, 1, side(2)%mean_length < side(1)%mean_length*(one - 1.0e-6_wp))
         pair%contactor_side = s
         pair%contactor = side(s)
         pair%obstacle = side(3 - s)
+        if (model%requests%ncforc > zero) call make_nodal(model, pair)
       end associate
     end do
   end subroutine make_contact
+
+  !> Work space of the forces on nodes.
+  subroutine make_nodal(model, pair)
+    type(model_t), intent(in) :: model
+    type(pair_t), intent(inout) :: pair
+    integer :: n, m, k
+    n = size(pair%contactor%node)
+    m = size(pair%obstacle%node)
+    allocate (pair%nodal)
+    associate (nodal => pair%nodal)
+      nodal%node = [pair%contactor%node, pair%obstacle%node]
+      allocate (nodal%side(n + m), nodal%place(model%nodes, 2), nodal%area(n + m))
+      allocate (nodal%force(2, n + m), nodal%before(2, n + m), nodal%normal(n + m))
+      allocate (nodal%gap(n + m), nodal%slip(n + m), nodal%status(n + m))
+      nodal%side(1:n) = pair%contactor_side
+      nodal%side(n + 1:) = 3 - pair%contactor_side
+      nodal%place = 0
+      nodal%place(pair%contactor%node, 1) = [(k, k=1, n)]
+      nodal%place(pair%obstacle%node, 2) = [(k, k=n + 1, n + m)]
+      nodal%force = zero
+      nodal%before = zero
+      nodal%normal = zero
+      nodal%gap = no_gap
+      nodal%slip = zero
+      nodal%status = contact_open
+      nodal%area = zero
+      call add_areas(model, pair%contactor, nodal%place(:, 1), nodal%area)
+      call add_areas(model, pair%obstacle, nodal%place(:, 2), nodal%area)
+    end associate
+  end subroutine make_nodal
+
+  !> Half of each edge's area to both of its nodes.
+  pure subroutine add_areas(model, surface, place, area)
+    type(model_t), intent(in) :: model
+    type(surface_t), intent(in) :: surface
+    integer, intent(in) :: place(:)
+    real(wp), intent(inout) :: area(:)
+    integer :: owner(size(surface%length)), k, s
+    owner = segment_owner(model, surface%end_node)
+    do k = 1, size(owner)
+      do s = 1, 2
+        associate (a => area(place(surface%end_node(s, k))))
+          a = a + half*surface%length(k)*model%part(model%element_part(abs(owner(k))))%thickness
+        end associate
+      end do
+    end do
+  end subroutine add_areas
 
   !> Candidates for the coming step: searches if any pair has moved enough to wake, then tracks.
   !> new_block tells that the block of nodes had to grow: the matrix must be factored again.

@@ -87,6 +87,10 @@ contains
         terms = terms + c%gap**2 + sum(du(:, c%node)**2) + sum(du(:, c%a)**2)
         contact%pair(c%pair)%penetration = max(contact%pair(c%pair)%penetration, depth)
         contact%worst_penetration = max(contact%worst_penetration, depth/c%length)
+        if (depth > contact%penetration_tolerance*c%length .and. c%held) &
+            call fail(status, status_numerical, 'prescribed motions overlap: node '// &
+            to_text(model%node_id(c%node))//' is '//to_text(depth)//' deep in the other body', &
+            hint='both sides of this contact are held; change their motions')
         if (depth > contact%penetration_tolerance*c%length) &
             call fail(status, status_numerical, 'node '//to_text(model%node_id(c%node))// &
             ' penetrates by '//to_text(depth)//', more than PENTOL times the edge', &

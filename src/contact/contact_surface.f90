@@ -4,7 +4,8 @@
 module contact_surface
   use base_kinds, only: wp, zero
   use base_sort, only: sort_order
-  use model_data, only: model_t, find_set
+  use model_data, only: model_t, corner_count, side_part_set, side_node_set, side_part, &
+      side_segment_set
   implicit none
   private
 
@@ -28,35 +29,58 @@ module contact_surface
 
 contains
 
-  !> Surface of a part set (side > 0) or of a node set (side < 0): exposed edges within it.
-  subroutine make_surface(model, side, surface)
+  !> Surface of a side of a contact card: the exposed edges of parts, those whose nodes are all
+  !> in a node set, or the edges of a segment set. Lone nodes of a node set belong to it too.
+  subroutine make_surface(model, kind, row, surface)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: side
+    integer, intent(in) :: kind, row
     type(surface_t), intent(out) :: surface
     logical, allocatable :: part_in(:), node_in(:)
     integer, allocatable :: edge(:, :)
-    integer :: row, k
+    integer :: k
     allocate (part_in(size(model%part)), node_in(model%nodes))
-    part_in = side < 0
-    node_in = side > 0
-    if (side > 0) then
-      row = find_set(model%part_set, side)
-      part_in(model%part_set(row)%member) = .true.
-    else
-      row = find_set(model%node_set, -side)
-      node_in(model%node_set(row)%member) = .true.
-    end if
+    part_in = kind == side_node_set .or. kind == side_segment_set
+    if (kind == side_part_set) part_in(model%part_set(row)%member) = .true.
+    if (kind == side_part) part_in(row) = .true.
     call exposed_edges(model, part_in, edge)
-    edge = pack_columns(edge, [(all(node_in(edge(:, k))), k=1, size(edge, 2))])
+    select case (kind)
+    case (side_node_set)
+      node_in = .false.
+      node_in(model%node_set(row)%member) = .true.
+      edge = pack_columns(edge, [(all(node_in(edge(:, k))), k=1, size(edge, 2))])
+    case (side_segment_set)
+      edge = pack_columns(edge, in_segments(model%nodes, edge, model%segment_set(row)%node))
+    end select
     node_in = .false.
     do k = 1, size(edge, 2)
       node_in(edge(:, k)) = .true.
     end do
-    if (side < 0) node_in(model%node_set(row)%member) = .true.
+    if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.
     surface%node = pack([(k, k=1, model%nodes)], node_in)
     surface%end_node = edge
     call measure_edges(model, surface)
   end subroutine make_surface
+
+  !> Which edges are among the segments, in either direction.
+  pure function in_segments(nodes, edge, segment) result(found)
+    integer, intent(in) :: nodes
+    integer, intent(in) :: edge(:, :), segment(:, :)
+    logical :: found(size(edge, 2))
+    integer :: first(nodes), next(size(segment, 2)), s, k
+    first = 0
+    do s = 1, size(segment, 2)
+      next(s) = first(minval(segment(:, s)))
+      first(minval(segment(:, s))) = s
+    end do
+    found = .false.
+    do k = 1, size(edge, 2)
+      s = first(minval(edge(:, k)))
+      do while (s > 0)
+        if (maxval(segment(:, s)) == maxval(edge(:, k))) found(k) = .true.
+        s = next(s)
+      end do
+    end do
+  end function in_segments
 
   pure function pack_columns(list, keep) result(kept)
     integer, intent(in) :: list(:, :)
@@ -73,14 +97,15 @@ contains
     integer, allocatable, intent(out) :: edge(:, :)
     integer, allocatable :: all_edges(:, :), order(:)
     logical, allocatable :: single(:)
-    integer :: e, k, n, i, j, first
+    integer :: e, k, n, i, j, first, corners
     allocate (all_edges(2, 4*model%elements))
     n = 0
     do e = 1, model%elements
       if (.not. part_in(model%element_part(e))) cycle
-      do k = 1, 4
+      corners = corner_count(model%connectivity(:, e))
+      do k = 1, corners
         n = n + 1
-        all_edges(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, 4), e)]
+        all_edges(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, corners), e)]
       end do
     end do
     allocate (order(n), single(n))

@@ -11,6 +11,17 @@ module contact_types
   !> Printed for the gap while no node is near enough to be listed.
   real(wp), parameter, public :: no_gap = 1.0e99_wp
 
+  !> Contact forces on the nodes of a pair: first those of the contactor, then of the obstacle.
+  type, public :: node_forces_t
+    integer, allocatable :: node(:), side(:)
+    integer, allocatable :: place(:, :)        !< (nodes of the model, contactor/obstacle)
+    real(wp), allocatable :: area(:)           !< half the edges at the node x thickness [L2]
+    real(wp), allocatable :: force(:, :), before(:, :)  !< (2, *) of this step, of the last [F]
+    real(wp), allocatable :: normal(:)         !< normal force [F]
+    real(wp), allocatable :: gap(:), slip(:)   !< [L]; no_gap where the node is not listed
+    integer, allocatable :: status(:)
+  end type node_forces_t
+
   !> One contact card: the contactor's nodes against the obstacle's edges.
   type, public :: pair_t
     integer :: id = 0
@@ -34,6 +45,7 @@ module contact_types
     real(wp) :: penetration = zero         !< largest since the last row [L]
     real(wp) :: smallest_gap = no_gap
     integer :: n_active = 0, n_stick = 0, n_slip = 0
+    type(node_forces_t), allocatable :: nodal  !< only where the table NCFORC is asked for
   end type pair_t
 
   !> A contactor node and the place on the obstacle that it faces.
@@ -50,6 +62,7 @@ module contact_types
     real(wp) :: u(2) = zero        !< gap at the end and slip of the step [L]
     integer :: status = 0
     logical :: valid = .false.     !< takes part in this step
+    logical :: held = .false.      !< both sides are prescribed: no row, only watched
   end type candidate_t
 
   type, public :: contact_t
@@ -72,6 +85,7 @@ module contact_types
     type(cone_options_t) :: cone
     type(cone_work_t) :: work
     ! Counts for log and tables.
+    integer :: searched = 0       !< pair that was searched last, for messages
     integer :: searches = 0, w_builds = 0, block_changes = 0
     integer :: solves = 0
     integer :: sweeps = 0, sweeps_since_row = 0, solves_since_row = 0

@@ -6,7 +6,7 @@ module contact_work
   use cone_types, only: contact_open, contact_stick
   use contact_condense, only: relative_motion
   use contact_surface, only: edge_tangent
-  use contact_types, only: contact_t, candidate_t, no_gap
+  use contact_types, only: contact_t, candidate_t, node_forces_t, no_gap
   implicit none
   private
 
@@ -43,8 +43,13 @@ contains
         pair%smallest_gap = no_gap
       end associate
     end do
+    do p = 1, size(contact%pair)
+      if (allocated(contact%pair(p)%nodal)) call clear_nodal(contact%pair(p)%nodal)
+    end do
     do i = 1, contact%n
       call add_force(contact, contact%candidate(i))
+      if (allocated(contact%pair(contact%candidate(i)%pair)%nodal)) &
+          call add_nodal(contact%candidate(i), contact%pair(contact%candidate(i)%pair)%nodal)
       if (weight_before > zero) then
         call add_weighted_work(contact, contact%candidate(i), weight_now, du, work)
       else
@@ -63,6 +68,37 @@ contains
       end associate
     end do
   end subroutine add_contact_step
+
+  pure subroutine clear_nodal(nodal)
+    type(node_forces_t), intent(inout) :: nodal
+    nodal%before = nodal%force
+    nodal%force = zero
+    nodal%normal = zero
+    nodal%gap = no_gap
+    nodal%slip = zero
+    nodal%status = contact_open
+  end subroutine clear_nodal
+
+  !> Force, gap and slip of a candidate to its node and, in shares, to the nodes of its edge.
+  pure subroutine add_nodal(c, nodal)
+    type(candidate_t), intent(in) :: c
+    type(node_forces_t), intent(inout) :: nodal
+    real(wp) :: share(3), force(2)
+    integer :: k, at, node(3)
+    if (.not. c%valid) return
+    node = [c%node, c%a, c%b]
+    share = [1.0_wp, 1.0_wp - c%xi, c%xi]
+    force = c%normal*c%r(1) + edge_tangent(c%normal)*c%r(2)
+    do k = 1, 3
+      at = nodal%place(node(k), merge(1, 2, k == 1))
+      if (at == 0 .or. .not. share(k) > zero) cycle
+      nodal%force(:, at) = nodal%force(:, at) + merge(1.0_wp, -1.0_wp, k == 1)*share(k)*force
+      nodal%normal(at) = nodal%normal(at) + share(k)*c%r(1)
+      nodal%gap(at) = min(nodal%gap(at), c%u(1))
+      if (abs(c%u(2)) > abs(nodal%slip(at))) nodal%slip(at) = c%u(2)
+      nodal%status(at) = max(nodal%status(at), c%status)
+    end do
+  end subroutine add_nodal
 
   subroutine add_force(contact, c)
     type(contact_t), intent(inout) :: contact

@@ -2,8 +2,8 @@
 !> What --help and --keywords print; doc/deck.md comes from the same table.
 module deck_help
   use base_strings, only: to_text
-  use deck_table, only: table_t, keyword_t, field_t, keyword_used, field_honoured, &
-      field_tuning, field_fixed, field_ignored
+  use deck_table, only: table_t, keyword_t, field_t, keyword_used, keyword_skipped, &
+      keyword_refused, field_honoured, field_tuning, field_fixed, field_ignored
   implicit none
   private
   public :: write_usage, write_keywords
@@ -32,23 +32,57 @@ contains
     end do
   end subroutine write_usage
 
-  !> Every keyword with its cards and fields, as Markdown.
+  !> Every keyword with its cards and fields, then those without effect and those that are
+  !> refused, as Markdown.
   subroutine write_keywords(table, unit)
     type(table_t), intent(in) :: table
     integer, intent(in) :: unit
     integer :: k, c
     do k = 1, table%n
       associate (keyword => table%keyword(k))
+        if (keyword%class /= keyword_used .or. keyword%noted) cycle
         write (unit, '(a)') '### *'//trim(keyword%name)
         write (unit, '(a)') ''
         write (unit, '(a)') capital(trim(keyword%help))//'.'//trim(options(keyword))
         write (unit, '(a)') ''
+        if (keyword%name /= keyword%canonical) cycle
         do c = 1, keyword%cards
           call write_card(keyword, c, unit)
         end do
       end associate
     end do
+    write (unit, '(a)') '## Read without effect'
+    write (unit, '(a)') ''
+    write (unit, '(a)') 'One note each in the log; they cannot change the solution here.'
+    write (unit, '(a)') ''
+    call write_list(table, keyword_skipped, unit)
+    write (unit, '(a)') '## Refused by name'
+    write (unit, '(a)') ''
+    write (unit, '(a)') &
+        'Known, but not available in this version: an error, never ignored. `*` '// &
+        'at the end stands for the whole family, apart from the keywords above.'
+    write (unit, '(a)') ''
+    call write_list(table, keyword_refused, unit)
   end subroutine write_keywords
+
+  !> Names of one class, each with its reason.
+  subroutine write_list(table, class, unit)
+    type(table_t), intent(in) :: table
+    integer, intent(in) :: class, unit
+    character(:), allocatable :: line
+    integer :: k
+    do k = 1, table%n
+      associate (keyword => table%keyword(k))
+        if (keyword%class /= class) then
+          if (.not. (keyword%noted .and. class == keyword_skipped)) cycle
+        end if
+        line = '- `*'//trim(keyword%name)//'`'
+        if (len_trim(keyword%help) > 0) line = line//': '//trim(keyword%help)
+        write (unit, '(a)') line
+      end associate
+    end do
+    write (unit, '(a)') ''
+  end subroutine write_list
 
   pure function capital(text) result(out)
     character(*), intent(in) :: text
@@ -100,11 +134,24 @@ contains
     type(field_t), intent(in) :: field
     character(:), allocatable :: text
     text = ''
+    if (len_trim(field%words) > 0) text = words_text(trim(field%words))
     if (field%low > -huge(field%low)) text = trim(merge('> ', '>=', field%low_open))//' '// &
         to_text(field%low)
     if (field%high < huge(field%high)) text = text//' '// &
         trim(merge('< ', '<=', field%high_open))//' '//to_text(field%high)
   end function range_text
+
+  !> |A|B| as "A, B".
+  pure function words_text(words) result(text)
+    character(*), intent(in) :: words
+    character(:), allocatable :: text
+    integer :: k
+    text = ''
+    do k = 2, len(words) - 1
+      if (words(k:k) == '|') text = text//', '
+      if (words(k:k) /= '|') text = text//words(k:k)
+    end do
+  end function words_text
 
   pure function use_text(class) result(text)
     integer, intent(in) :: class

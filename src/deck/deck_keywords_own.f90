@@ -13,7 +13,7 @@ contains
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'BIPACT_TIME', 'time scheme', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'SCHEME', 'W10 =THETA', 'THETA or NEWMARK')
+    call add_field(table, 'SCHEME', 'W10 =THETA |THETA|NEWMARK|', 'time scheme')
     call add_field(table, 'THETA', 'R10 =0.5 >=0.5 <=1', 'weight of the velocity at the end')
     call add_field(table, 'XI', 'R10 >=0.5 <=1', &
         'weight of the forces at the end; blank = THETA')
@@ -22,12 +22,13 @@ contains
     call add_field(table, 'RULE', 'W10 fixed')
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'TYPE', 'W10 =CONSISTENT', 'CONSISTENT, LUMPED or DISPERSION')
+    call add_field(table, 'TYPE', 'W10 =CONSISTENT |CONSISTENT|LUMPED|DISPERSION|', &
+        'mass matrix')
     call add_field(table, 'REDIST', 'I10 =0 >=0 <=1', '1 = massless contact nodes')
     call add_field(table, 'COURANT', 'R10 >=0 <=1', 'of DISPERSION; blank = from DT0')
     call add_keyword(table, 'BIPACT_CONTACT', 'contact solver', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'SOLVER', 'W10 =AUTO', &
+    call add_field(table, 'SOLVER', 'W10 =AUTO |AUTO|GS|', &
         'AUTO: Gauss-Seidel and direct solves; GS: alone')
     call add_field(table, 'TOL', 'R10 =1.0E-10 >0 <=0.01', 'of the certificate')
     call add_field(table, 'MAXIT', 'I10 =10000 >0', 'most sweeps of a solve')
@@ -38,7 +39,7 @@ contains
     call add_field(table, 'WARM', 'I10 =1 >=0 <=1', &
         '1 = start from the reactions of the last step')
     call add_card(table)
-    call add_field(table, 'WSTORE', 'W10 =AUTO', 'AUTO or DENSE')
+    call add_field(table, 'WSTORE', 'W10 =AUTO |AUTO|DENSE|', 'storage of W')
     call add_field(table, 'FRAME', 'W10 =START fixed', 'frames of contact: start of the step')
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
         'accepted penetration / segment length')
@@ -48,9 +49,10 @@ contains
     call add_field(table, 'DEVERY', 'I10 =1 fixed')
     call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'ENGINE', 'W10 =AUTO', 'AUTO, LDLT or SKYLINE')
-    call add_field(table, 'ORDER', 'W10 =AUTO', 'AUTO, NATURAL, RCM or METIS')
-    call add_field(table, 'SCHUR', 'W10 =AUTO', 'AUTO or YES: contact dofs last')
+    call add_field(table, 'ENGINE', 'W10 =AUTO |AUTO|LDLT|SKYLINE|', 'factor')
+    call add_field(table, 'ORDER', 'W10 =AUTO |AUTO|NATURAL|RCM|METIS|', &
+        'elimination order; AUTO: fewest flops')
+    call add_field(table, 'SCHUR', 'W10 =AUTO |AUTO|YES|', 'contact dofs last')
     call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
     call add_field(table, 'CGTOL', 'R10 fixed')
     call add_field(table, 'CGMAX', 'I10 fixed')
@@ -59,18 +61,22 @@ contains
     call add_card(table)
     call add_field(table, 'EVERY', 'I10 =0 >=0', 'steps between evaluations; 0 = with GLSTAT')
     call add_field(table, 'GROWTH', 'R10 =1.0E-9 >0', 'growth / largest term that is warned of')
-    call add_field(table, 'ACTION', 'W10 =WARN', 'WARN or STOP on growth')
+    call add_field(table, 'ACTION', 'W10 =WARN |WARN|STOP|', 'what growth does to the run')
     call add_keyword(table, 'BIPACT_TIMING', 'table TIMING', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
-    call add_keyword(table, 'BIPACT_PAIR', 'not available in this version', &
-        class=keyword_refused)
-    call add_keyword(table, 'BIPACT_STEP', 'not available in this version', &
-        class=keyword_refused)
-    call add_keyword(table, 'BIPACT_FIELD', 'not available in this version', &
-        class=keyword_refused)
-    call add_keyword(table, 'BIPACT_RESTART', 'not available in this version', &
-        class=keyword_refused)
+    call add_keyword(table, 'BIPACT_PAIR', 'what the sides of a contact are', required=1, &
+        repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'CID', 'I10 req >0', 'contact: its id, or its number in the deck')
+    call add_field(table, 'SIDE', 'W10 =AUTO |AUTO|A|B|', &
+        'whose nodes: A, B, or AUTO: the side with the shorter edges')
+    call add_field(table, 'ATYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFA is')
+    call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
+    call add_field(table, 'REST', 'R10 fixed', 'restitution of velocity-level schemes')
+    call add_keyword(table, 'BIPACT_STEP', '', class=keyword_refused)
+    call add_keyword(table, 'BIPACT_FIELD', '', class=keyword_refused)
+    call add_keyword(table, 'BIPACT_RESTART', '', class=keyword_refused)
   end subroutine add_own_keywords
 
 end module deck_keywords_own

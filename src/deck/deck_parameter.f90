@@ -3,13 +3,12 @@
 module deck_parameter
   use base_kinds, only: wp
   use base_strings, only: upper, to_text
-  use deck_data, only: deck_t
-  use deck_number, only: scan_real, scan_integer
-  use deck_problems, only: problems_t, add_problem, render
+  use deck_data, only: deck_t, parameter_t, find_parameter, convert
+  use deck_problems, only: add_problem
   use deck_source, only: cursor_t, next_line
   implicit none
   private
-  integer, parameter :: pair_width = 20
+  integer, parameter :: longest_name = 9
 
   !> name=value of the command line.
   type, public :: override_t
@@ -18,143 +17,159 @@ module deck_parameter
     logical :: used = .false.
   end type override_t
 
-  type, public :: parameters_t
-    integer :: n = 0
-    character(10) :: name(256) = ''
-    character(24) :: text(256) = ''
-    character :: kind(256) = ''
-    integer :: line(256) = 0
-  end type parameters_t
+  !> Where a pair stands: card, number on the card, columns of its name and its value.
+  type :: pair_t
+    integer :: card = 0, number = 0
+    integer :: first(2) = 1, last(2) = 1
+  end type pair_t
 
-  public :: read_parameters, report_unused_overrides, find_parameter
+  public :: read_parameters, report_unused_overrides
 
 contains
 
-  !> Row of a parameter, 0 if it is not defined (yet).
-  pure integer function find_parameter(parameters, name)
-    type(parameters_t), intent(in) :: parameters
-    character(*), intent(in) :: name
-    do find_parameter = 1, parameters%n
-      if (parameters%name(find_parameter) == upper(name)) return
-    end do
-    find_parameter = 0
-  end function find_parameter
-
   !> Reads the cards of *PARAMETER: four pairs a card, each 10 columns name (type letter first)
-  !> and 10 columns value; or comma form.
-  subroutine read_parameters(deck, cursor, parameters, overrides, more)
+  !> and 10 columns value (long form: 20 and 20); or comma form.
+  subroutine read_parameters(deck, cursor, overrides, long, more)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(inout) :: cursor
-    type(parameters_t), intent(inout) :: parameters
     type(override_t), intent(inout) :: overrides(:)
+    logical, intent(in) :: long
     logical, intent(out) :: more
-    integer :: first
+    type(pair_t) :: pair
+    integer :: k, width
+    width = merge(20, 10, long)
+    pair%card = 0
     more = next_line(deck%file(cursor%file), cursor)
     do while (more)
       associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last))
         if (len(line) > 0) then
           if (line(1:1) == '*') return
         end if
-        if (index(line, ',') > 0) then
-          call read_comma_pairs(deck, cursor, line, parameters, overrides)
+        pair%card = pair%card + 1
+        if (scan(line, ',') > 0) then
+          call read_comma_pairs(deck, cursor, line, pair, overrides)
+        else if (scan(line, achar(9)) > 0) then
+          call deck%complain_at(cursor%file, cursor%line, 0, 0, '*PARAMETER card '// &
+              to_text(pair%card)//': a tab in a data card', line, 'expand tabs to blanks')
         else
-          do first = 1, max(len_trim(line), 1), pair_width
-            if (first > 4*pair_width) exit
-            call define(deck, cursor, pad(line, first), pad(line, first + 10), first, &
-                parameters, overrides)
+          do k = 1, 4
+            pair%number = k
+            pair%first = 2*width*(k - 1) + [1, width + 1]
+            pair%last = pair%first + width - 1
+            call define(deck, cursor, piece(line, pair%first(1), width), &
+                piece(line, pair%first(2), width), pair, overrides)
           end do
+          if (len_trim(line) > 8*width) &
+              call deck%complain_at(cursor%file, cursor%line, 8*width + 1, len_trim(line), &
+              '*PARAMETER card '//to_text(pair%card)//': text beyond the fourth pair', line, '')
         end if
       end associate
       more = next_line(deck%file(cursor%file), cursor)
     end do
   end subroutine read_parameters
 
-  subroutine read_comma_pairs(deck, cursor, line, parameters, overrides)
+  subroutine read_comma_pairs(deck, cursor, line, pair, overrides)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: line
-    type(parameters_t), intent(inout) :: parameters
+    type(pair_t), intent(inout) :: pair
     type(override_t), intent(inout) :: overrides(:)
     integer :: first, comma, next
-    character(:), allocatable :: name
     first = 1
+    pair%number = 0
     do while (first <= len(line))
       comma = index(line(first:)//',', ',') + first - 1
-      next = index(line(min(comma + 1, len(line) + 1):)//',', ',') + comma
-      name = line(first:comma - 1)
-      call define(deck, cursor, name, line(min(comma + 1, len(line) + 1):min(next - 1, &
-          len(line))), first, parameters, overrides)
+      next = len(line) + 1
+      if (comma < len(line)) next = index(line(comma + 1:)//',', ',') + comma
+      pair%number = pair%number + 1
+      pair%first = [first, min(comma + 1, len(line))]
+      pair%last = [max(first, comma - 1), max(next - 1, pair%first(2))]
+      call define(deck, cursor, line(first:comma - 1), line(comma + 1:next - 1), &
+          pair, overrides)
       first = next + 1
     end do
   end subroutine read_comma_pairs
 
-  !> Ten columns of a line, blanks beyond its end.
-  pure function pad(line, first) result(piece)
+  !> Columns of a line, blanks beyond its end.
+  pure function piece(line, first, width) result(text)
     character(*), intent(in) :: line
-    integer, intent(in) :: first
-    character(10) :: piece
-    piece = ''
-    if (first <= len(line)) piece = line(first:min(first + 9, len(line)))
-  end function pad
+    integer, intent(in) :: first, width
+    character(width) :: text
+    text = ''
+    if (first <= len(line)) text = line(first:min(first + width - 1, len(line)))
+  end function piece
 
-  !> Defines one parameter.
-  subroutine define(deck, cursor, pair_name, pair_value, column, parameters, overrides)
+  !> Defines one parameter; both texts blank: nothing.
+  subroutine define(deck, cursor, pair_name, pair_value, pair, overrides)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: pair_name
     character(*), intent(in) :: pair_value
-    integer, intent(in) :: column
-    type(parameters_t), intent(inout) :: parameters
+    type(pair_t), intent(in) :: pair
     type(override_t), intent(inout) :: overrides(:)
-    character(:), allocatable :: name, value, what, left
+    character(:), allocatable :: name, value, left, found
     character :: kind
     integer :: k
-    left = adjustl(pair_name)
-    if (len_trim(left) == 0 .and. len_trim(pair_value) == 0) return
+    if (len_trim(pair_name) == 0 .and. len_trim(pair_value) == 0) return
+    left = trim(adjustl(pair_name))//' '
     kind = upper(left(1:1))
     name = upper(trim(adjustl(left(2:))))
     value = trim(adjustl(pair_value))
+    found = 'found "'//pair_value//'"'
     do k = 1, size(overrides)
       if (upper(overrides(k)%name) /= name) cycle
       value = trim(overrides(k)%value)
+      found = '-D gives "'//value//'"'
       overrides(k)%used = .true.
     end do
-    what = ''
     if (index('RIC', kind) == 0) then
-      what = 'field NAME: expected R, I or C before the name, found "'//trim(left)//'"'
-    else if (len(name) == 0 .or. len(name) > 9) then
-      what = 'field NAME: expected a name of 1 to 9 characters, found "'//trim(left)//'"'
-    else if (find_parameter(parameters, name) > 0) then
-      what = 'parameter '//name//' is defined twice; the first is in line '// &
-          to_text(parameters%line(find_parameter(parameters, name)))
+      call complain(deck, cursor, pair, 1, 'expected R, I or C before the name, found "'// &
+          pair_name//'"', pair_value)
+    else if (len(name) == 0 .or. len(name) > longest_name .or. index(name, ' ') > 0) then
+      call complain(deck, cursor, pair, 1, 'expected a name of 1 to 9 characters, found "'// &
+          pair_name//'"', pair_value)
+    else if (find_parameter(deck, name) > 0) then
+      call complain(deck, cursor, pair, 1, 'parameter '//name// &
+          ' is defined twice; the first is at '// &
+          deck%parameter(find_parameter(deck, name))%place, '')
     else if (.not. converts(kind, value)) then
-      what = 'field VALUE: expected '//trim(kind_name(kind))//', found "'//pair_value//'"'
-    end if
-    if (len(what) > 0) then
-      call complain(deck, cursor, column, what)
+      call complain(deck, cursor, pair, 2, 'expected '//trim(kind_name(kind))//', '// &
+          found, pair_value)
     else
-      k = parameters%n + 1
-      parameters%n = k
-      parameters%name(k) = name
-      parameters%text(k) = value
-      parameters%kind(k) = kind
-      parameters%line(k) = cursor%line
+      call keep(deck, name, value, kind, deck%file(cursor%file)%path//':'//to_text(cursor%line))
     end if
   end subroutine define
+
+  subroutine keep(deck, name, value, kind, place)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: name, value
+    character, intent(in) :: kind
+    character(*), intent(in) :: place
+    type(parameter_t), allocatable :: longer(:)
+    if (deck%parameters == size(deck%parameter)) then
+      allocate (longer(2*deck%parameters))
+      longer(1:deck%parameters) = deck%parameter
+      call move_alloc(longer, deck%parameter)
+    end if
+    deck%parameters = deck%parameters + 1
+    associate (p => deck%parameter(deck%parameters))
+      p%name = name
+      p%text = value
+      p%kind = kind
+      p%place = place
+    end associate
+  end subroutine keep
 
   pure logical function converts(kind, value)
     character, intent(in) :: kind
     character(*), intent(in) :: value
     real(wp) :: number
-    integer :: count
-    select case (kind)
-    case ('R')
-      call scan_real(value, number, converts)
-    case ('I')
-      call scan_integer(value, count, converts)
-    case default
-      converts = len(value) > 0 .and. len(value) <= 10
-    end select
+    if (kind == 'C') then
+      converts = len(value) > 0 .and. len(value) <= 10 .and. scan(value, '&,$* ') == 0
+    else
+      converts = len(value) <= 24
+      if (converts) call convert(value, kind, number, converts)
+    end if
   end function converts
 
   pure function kind_name(kind) result(name)
@@ -170,36 +185,42 @@ contains
     end select
   end function kind_name
 
-  subroutine complain(deck, cursor, column, what)
+  !> The half of a pair that is wrong, 1 its name, 2 its value. Where the value ends in the type
+  !> letter of the next pair, the card has slipped to the left.
+  subroutine complain(deck, cursor, pair, half, what, pair_value)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
-    integer, intent(in) :: column
-    character(*), intent(in) :: what
+    type(pair_t), intent(in) :: pair
+    integer, intent(in) :: half
+    character(*), intent(in) :: what, pair_value
     character(:), allocatable :: hint
-    hint = 'each name/value pair is 20 columns wide: the type letter R, I or C in the '// &
-        'first, the value in its last ten'
-    if (scan(what(max(1, len(what) - 1):), 'RICric') > 0 .and. what(len(what):) == '"') &
-        hint = hint//'; this pair looks one column short'
-    call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-        to_text(cursor%line), column, column + pair_width - 1, '*PARAMETER: '//what, &
-        deck%file(cursor%file)%text(cursor%first:cursor%last), hint))
+    hint = ''
+    if (half == 2 .or. len(pair_value) > 0) &
+        hint = 'each name/value pair is 20 columns wide, '//'the type letter R, I or C first'
+    if (scan(pair_value(max(1, len(pair_value)):), 'RICric') > 0) hint = 'each name/value '// &
+        'pair is 20 columns wide; the pair starting in column '//to_text(pair%first(1))// &
+        ' looks one column short'
+    call deck%complain_at(cursor%file, cursor%line, pair%first(half), pair%last(half), &
+        '*PARAMETER card '//to_text(pair%card)//', field '// &
+        trim(merge('NAME ', 'VALUE', half == 1))//to_text(pair%number)//': '//what, &
+        deck%file(cursor%file)%text(cursor%first:cursor%last), hint)
   end subroutine complain
 
   !> An override of a name that no *PARAMETER defines is a problem, never ignored.
-  subroutine report_unused_overrides(overrides, parameters, problems)
+  subroutine report_unused_overrides(overrides, deck)
     type(override_t), intent(in) :: overrides(:)
-    type(parameters_t), intent(in) :: parameters
-    type(problems_t), intent(inout) :: problems
+    type(deck_t), intent(inout) :: deck
     character(:), allocatable :: known
     integer :: k
     known = ''
-    do k = 1, parameters%n
-      known = known//' '//trim(parameters%name(k))
+    do k = 1, min(deck%parameters, 20)
+      known = known//' '//trim(deck%parameter(k)%name)
     end do
     if (len(known) == 0) known = ' none'
+    if (deck%parameters > 20) known = known//' ...'
     do k = 1, size(overrides)
       if (overrides(k)%used) cycle
-      call add_problem(problems, '-D '//trim(overrides(k)%name)//'='// &
+      call add_problem(deck%problems, '-D '//trim(overrides(k)%name)//'='// &
           trim(overrides(k)%value)//': the deck has no such parameter'//new_line('a')// &
           '    hint: its parameters are:'//known)
     end do

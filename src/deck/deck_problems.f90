@@ -72,7 +72,8 @@ contains
     list(count)%text = text
   end subroutine append
 
-  !> One message: place and columns, what, the card, carets under the columns, the hint.
+  !> One message: place and columns, what, the card, carets under the columns, the hint. Control
+  !> characters of the card are shown as "?", and only its first 200 columns.
   pure function render(place, first, last, what, card, hint) result(text)
     character(*), intent(in) :: place
     integer, intent(in) :: first, last   !< columns; 0 = the whole card
@@ -81,15 +82,25 @@ contains
     character(*), intent(in) :: hint
     character(:), allocatable :: text
     character(*), parameter :: indent = '    '
-    character :: end_line
-    end_line = new_line('a')
-    text = place
+    integer, parameter :: widest = 200
+    text = printable(place)
     if (first > 0) text = text//', columns '//to_text(first)//'-'//to_text(last)
-    text = text//': '//what
-    if (len(card) > 0) text = text//end_line//indent//card
-    if (len(card) > 0 .and. first > 0) text = text//end_line//indent//repeat(' ', first - 1)// &
-        repeat('^', max(1, last - first + 1))
-    if (len(hint) > 0) text = text//end_line//indent//'hint: '//hint
+    text = text//': '//printable(what)
+    if (len(card) > 0) text = text//new_line('a')//indent// &
+        printable(card(1:min(len(card), widest)))
+    if (len(card) > 0 .and. first > 0 .and. first <= widest) text = text//new_line('a')// &
+        indent//repeat(' ', first - 1)//repeat('^', max(1, min(last, widest) - first + 1))
+    if (len(hint) > 0) text = text//new_line('a')//indent//'hint: '//hint
   end function render
+
+  pure function printable(text) result(clean)
+    character(*), intent(in) :: text
+    character(len(text)) :: clean
+    integer :: k
+    clean = text
+    do k = 1, len(text)
+      if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) clean(k:k) = '?'
+    end do
+  end function printable
 
 end module deck_problems

@@ -3,16 +3,19 @@
 !> problem with its place; nothing is dropped in silence.
 module deck_reader
   use base_status, only: status_t, fail, failed, status_deck
-  use base_strings, only: upper, to_text, edit_distance, folder_of, join_path
-  use deck_card, only: start_block, read_card
+  use base_strings, only: upper, edit_distance, folder_of, join_path, to_text
+  use deck_card, only: start_block, read_cards
   use deck_data, only: deck_t
-  use deck_parameter, only: parameters_t, override_t, read_parameters, report_unused_overrides
-  use deck_problems, only: add_problem, add_note, render
+  use deck_parameter, only: override_t, read_parameters, report_unused_overrides
+  use deck_problems, only: add_note
   use deck_source, only: cursor_t, load_file, next_line
-  use deck_table, only: find_keyword, keyword_skipped, keyword_refused
+  use deck_table, only: find_keyword, family_of, keyword_used, keyword_skipped, keyword_refused
   implicit none
   private
   integer, parameter :: include_depth = 16
+  integer, parameter :: include_limit = 1000
+  !> The card of _TITLE or _ID.
+  integer, parameter :: head_none = 0, head_title = 1, head_id = 2
   public :: read_deck
 
 contains
@@ -24,30 +27,30 @@ contains
     type(override_t), intent(inout) :: overrides(:)
     type(deck_t), intent(inout) :: deck
     type(status_t), intent(inout) :: status
-    type(parameters_t) :: parameters
-    logical :: ended
-    allocate (deck%file(64), deck%block(64), deck%record(1024), deck%text(256))
-    allocate (deck%value(8192), deck%given(8192))
+    logical :: ended, long
+    allocate (deck%file(include_limit), deck%block(64), deck%record(1024), deck%parameter(16))
     deck%files = 1
     call load_file(path, deck%file(1), status)
     if (failed(status)) return
-    call read_file(deck, 1, 1, parameters, overrides, ended)
+    long = .false.
+    call read_file(deck, 1, 1, overrides, long, ended)
     if (.not. ended) &
         call add_note(deck%problems, path//': no *END; the file was read to its end')
-    call report_unused_overrides(overrides, parameters, deck%problems)
+    call report_unused_overrides(overrides, deck)
   end subroutine read_deck
 
-  !> Reads one file to its *END or its last line.
-  recursive subroutine read_file(deck, file, depth, parameters, overrides, ended)
+  !> Reads one file to its *END or its last line. long: fields of 20 columns unless a keyword
+  !> says otherwise.
+  recursive subroutine read_file(deck, file, depth, overrides, long, ended)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: file
     integer, intent(in) :: depth
-    type(parameters_t), intent(inout) :: parameters
     type(override_t), intent(inout) :: overrides(:)
+    logical, intent(inout) :: long
     logical, intent(out) :: ended
     type(cursor_t) :: cursor
     character(:), allocatable :: name
-    logical :: more
+    logical :: more, long_here
     ended = .false.
     cursor%file = file
     more = next_line(deck%file(file), cursor)
@@ -57,17 +60,20 @@ contains
         more = next_line(deck%file(file), cursor)
         cycle
       end if
-      name = keyword_name(deck, cursor)
+      call keyword_name(deck, cursor, long, name, long_here)
       select case (name)
       case ('END')
         ended = .true.
         return
+      case ('KEYWORD')
+        call read_options(deck, cursor, long)
+        more = next_line(deck%file(file), cursor)
       case ('INCLUDE')
-        call read_include(deck, cursor, depth, parameters, overrides, more)
+        call read_include(deck, cursor, depth, overrides, long, more)
       case ('PARAMETER')
-        call read_parameters(deck, cursor, parameters, overrides, more)
+        call read_parameters(deck, cursor, overrides, long_here, more)
       case default
-        call read_block(deck, cursor, name, parameters, more)
+        call read_block(deck, cursor, name, long_here, more)
       end select
     end do
   end subroutine read_file
@@ -79,56 +85,95 @@ contains
     if (is_keyword) is_keyword = deck%file(cursor%file)%text(cursor%first:cursor%first) == '*'
   end function is_keyword
 
-  !> The name after '*' in upper case, to the first blank.
-  pure function keyword_name(deck, cursor) result(name)
+  !> The name after '*' in upper case, to the first blank, without the sign for long (+) or
+  !> standard (-) fields.
+  pure subroutine keyword_name(deck, cursor, long, name, long_here)
     type(deck_t), intent(in) :: deck
     type(cursor_t), intent(in) :: cursor
-    character(:), allocatable :: name
-    integer :: blank
+    logical, intent(in) :: long
+    character(:), allocatable, intent(out) :: name
+    logical, intent(out) :: long_here
+    integer :: blank, n
     associate (line => deck%file(cursor%file)%text(cursor%first + 1:cursor%last))
       blank = scan(line//' ', ' '//achar(9))
       name = upper(line(1:blank - 1))
     end associate
-  end function keyword_name
+    long_here = long
+    n = len(name)
+    if (n < 2) return
+    if (scan(name(n:n), '+-') == 0) return
+    long_here = name(n:n) == '+'
+    name = name(1:n - 1)
+  end subroutine keyword_name
+
+  !> The options of *KEYWORD: LONG=Y makes every field 20 columns wide; LONG=S and LONG=K read
+  !> standard fields; I10=Y is not available; others (memory, ncpu) are noted.
+  subroutine read_options(deck, cursor, long)
+    type(deck_t), intent(inout) :: deck
+    type(cursor_t), intent(in) :: cursor
+    logical, intent(inout) :: long
+    character(:), allocatable :: rest, word
+    integer :: blank
+    associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last))
+      rest = trim(upper(line(min(9, len(line) + 1):)))
+      do while (len_trim(rest) > 0)
+        rest = adjustl(rest)
+        blank = scan(rest//' ', ' ,')
+        word = rest(1:blank - 1)
+        rest = trim(rest(min(blank + 1, len(rest) + 1):))
+        select case (word)
+        case ('')
+          cycle
+        case ('LONG=Y')
+          long = .true.
+        case ('LONG=S', 'LONG=K', 'I10=N')
+          long = .false.
+        case ('I10=Y')
+          call deck%complain_at(cursor%file, cursor%line, 0, 0, &
+              '*KEYWORD I10=Y (ids of ten columns) is not available in this version', line, '')
+        case default
+          call add_note(deck%problems, '*KEYWORD '//word//' has no effect')
+        end select
+      end do
+    end associate
+  end subroutine read_options
 
   subroutine stray_card(deck, cursor)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
-    associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last))
-      call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-          to_text(cursor%line), 0, 0, 'a card that belongs to no keyword', line, &
-          'a keyword starts with * in column 1; a comment with $'))
-    end associate
+    call deck%complain_at(cursor%file, cursor%line, 0, 0, 'a card that belongs to no keyword', &
+        deck%file(cursor%file)%text(cursor%first:cursor%last), &
+        'a keyword starts with * in column 1; a comment with $')
   end subroutine stray_card
 
   !> Cards of one keyword, up to the next '*'.
-  subroutine read_block(deck, cursor, name, parameters, more)
+  subroutine read_block(deck, cursor, name, long, more)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(inout) :: cursor
     character(*), intent(in) :: name
-    type(parameters_t), intent(in) :: parameters
+    logical, intent(in) :: long
     logical, intent(out) :: more
-    integer :: row
-    logical :: title, id, long, used
-    call match_name(deck, name, row, title, id, long)
-    used = row > 0
+    integer :: row, head
+    logical :: used
+    call match_name(deck, name, row, head)
+    used = .false.
     if (row == 0) then
       call unknown_keyword(deck, cursor, name)
     else
+      used = deck%table%keyword(row)%class == keyword_used
       select case (deck%table%keyword(row)%class)
       case (keyword_skipped)
-        call add_note(deck%problems, '*'//name// &
-            ' is skipped: it cannot change the solution here')
-        used = .false.
+        call add_note(deck%problems, '*'//name//' is skipped: '// &
+            trim(deck%table%keyword(row)%help))
       case (keyword_refused)
-        call refuse(deck, cursor, name)
-        used = .false.
+        call deck%complain_at(cursor%file, cursor%line, 0, 0, '*'//name// &
+            ' is not available in this version', '', trim(deck%table%keyword(row)%help))
       end select
     end if
-    if (used) call start_block(deck, row, name, long)
+    if (used) call start_block(deck, cursor, row, name, long)
     more = next_line(deck%file(cursor%file), cursor)
     if (used) then
-      call read_card(deck, cursor, parameters, title, id, more)
+      call read_cards(deck, cursor, head, more)
     else
       do while (more)
         if (is_keyword(deck, cursor)) exit
@@ -137,30 +182,43 @@ contains
     end if
   end subroutine read_block
 
-  !> Row of the table for a name with its options _TITLE, _ID and the sign for long form.
-  pure subroutine match_name(deck, name, row, title, id, long)
+  !> Row of the table for a name with its option _TITLE or _ID; then families of names.
+  pure subroutine match_name(deck, name, row, head)
     type(deck_t), intent(in) :: deck
     character(*), intent(in) :: name
-    integer, intent(out) :: row
-    logical, intent(out) :: title, id, long
-    character(:), allocatable :: bare
-    bare = name
-    long = bare(len(bare):) == '+'
-    if (long .or. bare(len(bare):) == '-') bare = bare(1:len(bare) - 1)
-    title = .false.
-    id = .false.
-    row = find_keyword(deck%table, bare)
+    integer, intent(out) :: row, head
+    integer :: nearest, distance
+    head = head_none
+    row = find_keyword(deck%table, name)
     if (row > 0) return
-    if (ends_with(bare, '_TITLE')) then
-      row = find_keyword(deck%table, bare(1:len(bare) - 6))
-      if (row > 0) title = deck%table%keyword(row)%may_title
-      if (.not. title) row = 0
-    else if (ends_with(bare, '_ID')) then
-      row = find_keyword(deck%table, bare(1:len(bare) - 3))
-      if (row > 0) id = deck%table%keyword(row)%may_id
-      if (.not. id) row = 0
+    if (ends_with(name, '_TITLE')) then
+      row = find_keyword(deck%table, name(1:len(name) - 6))
+      if (row > 0) head = merge(head_title, head_none, deck%table%keyword(row)%may_title)
+    else if (ends_with(name, '_ID')) then
+      row = find_keyword(deck%table, name(1:len(name) - 3))
+      if (row > 0) head = merge(head_id, head_none, deck%table%keyword(row)%may_id)
     end if
+    if (row > 0) then
+      if (head == head_none .and. deck%table%keyword(row)%class == keyword_used) row = 0
+    end if
+    if (row > 0 .or. base_of(deck, name) > 0) return
+    ! A slip of the pen must not pass for a keyword of a family that is skipped or refused.
+    call find_nearest(deck, name, nearest, distance)
+    if (distance > 2 .or. deck%table%keyword(nearest)%class /= keyword_used) &
+        row = family_of(deck%table, name)
   end subroutine match_name
+
+  !> The keyword that a name consists of apart from a last _OPTION; 0 if there is none.
+  pure integer function base_of(deck, name)
+    type(deck_t), intent(in) :: deck
+    character(*), intent(in) :: name
+    integer :: bar
+    base_of = 0
+    bar = index(name, '_', back=.true.)
+    if (bar > 1) base_of = find_keyword(deck%table, name(1:bar - 1))
+    if (base_of == 0) return
+    if (deck%table%keyword(base_of)%class /= keyword_used) base_of = 0
+  end function base_of
 
   pure logical function ends_with(text, tail)
     character(*), intent(in) :: text
@@ -169,76 +227,108 @@ contains
     if (ends_with) ends_with = text(len(text) - len(tail) + 1:) == tail
   end function ends_with
 
+  !> The row whose name is the fewest single-character edits away.
+  pure subroutine find_nearest(deck, name, best, distance)
+    type(deck_t), intent(in) :: deck
+    character(*), intent(in) :: name
+    integer, intent(out) :: best, distance
+    integer :: k, d
+    best = 1
+    distance = huge(distance)
+    do k = 1, deck%table%n
+      d = edit_distance(name(1:min(len(name), 64)), trim(deck%table%keyword(k)%name))
+      if (d >= distance) cycle
+      distance = d
+      best = k
+    end do
+  end subroutine find_nearest
+
   subroutine unknown_keyword(deck, cursor, name)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: name
-    integer :: k, best, distance, nearest
-    best = 0
-    nearest = huge(nearest)
-    do k = 1, deck%table%n
-      distance = edit_distance(name, trim(deck%table%keyword(k)%name))
-      if (distance >= nearest) cycle
-      nearest = distance
-      best = k
-    end do
-    call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-        to_text(cursor%line), 1, len(name) + 1, 'unknown keyword *'//name, &
-        deck%file(cursor%file)%text(cursor%first:cursor%last), 'the nearest known one is *'// &
-        trim(deck%table%keyword(best)%name)//'; bipact --keywords lists all'))
+    character(:), allocatable :: hint
+    integer :: best, distance
+    best = base_of(deck, name)
+    if (best > 0) then
+      hint = '*'//trim(deck%table%keyword(best)%name)//' has no option '// &
+          name(index(name, '_', back=.true.):)
+    else
+      call find_nearest(deck, name, best, distance)
+      hint = 'the nearest known one is *'//trim(deck%table%keyword(best)%name)
+    end if
+    call deck%complain_at(cursor%file, cursor%line, 1, len(name) + 1, 'unknown keyword *'// &
+        name, deck%file(cursor%file)%text(cursor%first:cursor%last), hint// &
+        '; bipact --keywords lists all')
   end subroutine unknown_keyword
 
-  subroutine refuse(deck, cursor, name)
-    type(deck_t), intent(inout) :: deck
-    type(cursor_t), intent(in) :: cursor
-    character(*), intent(in) :: name
-    call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-        to_text(cursor%line), 0, 0, '*'//name//' is not available in this version', '', ''))
-  end subroutine refuse
-
-  !> *INCLUDE: the file name, relative to the file that names it.
-  recursive subroutine read_include(deck, cursor, depth, parameters, overrides, more)
+  !> *INCLUDE: file names, one a line, relative to the file that names them; " +" at the end of
+  !> a line continues the name on the next.
+  recursive subroutine read_include(deck, cursor, depth, overrides, long, more)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(inout) :: cursor
     integer, intent(in) :: depth
-    type(parameters_t), intent(inout) :: parameters
     type(override_t), intent(inout) :: overrides(:)
+    logical, intent(inout) :: long
     logical, intent(out) :: more
-    type(status_t) :: status
-    character(:), allocatable :: path
-    logical :: ended
-    integer :: file, k
+    type(cursor_t) :: start
+    character(:), allocatable :: name
+    logical :: ended, any_name
+    any_name = .false.
+    start = cursor
     more = next_line(deck%file(cursor%file), cursor)
     do while (more)
-      if (is_keyword(deck, cursor)) return
-      path = join_path(folder_of(deck%file(cursor%file)%path), &
-          trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last))))
-      file = deck%files + 1
-      k = cursor%file
-      do while (k > 0)
-        if (deck%file(k)%path == path) &
-            call fail(status, status_deck, 'the file includes itself: "'//path//'"')
-        k = deck%file(k)%parent
+      if (is_keyword(deck, cursor)) exit
+      any_name = .true.
+      name = trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last)))
+      do while (ends_with(name, ' +') .and. more)
+        more = next_line(deck%file(cursor%file), cursor)
+        if (more) name = trim(name(1:len(name) - 2))// &
+            trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last)))
       end do
-      if (depth >= include_depth .or. file > size(deck%file)) &
-          call fail(status, status_deck, 'too many or too deeply nested include files')
-      if (.not. failed(status)) then
-        deck%files = file
-        deck%file(file)%parent = cursor%file
-        deck%file(file)%parent_line = cursor%line
-        call load_file(path, deck%file(file), status)
-      end if
-      if (failed(status)) then
-        call add_problem(deck%problems, render(deck%file(cursor%file)%path//':'// &
-            to_text(cursor%line), 0, 0, '*INCLUDE: '//status%message, &
-            deck%file(cursor%file)%text(cursor%first:cursor%last), &
-            'the name is relative to the file that includes it'))
-        status = status_t()
-      else
-        call read_file(deck, file, depth + 1, parameters, overrides, ended)
-      end if
-      more = next_line(deck%file(cursor%file), cursor)
+      call include_file(deck, cursor, name, depth, overrides, long, ended)
+      if (more) more = next_line(deck%file(cursor%file), cursor)
     end do
+    if (.not. any_name) call deck%complain_at(start%file, start%line, 0, 0, &
+        '*INCLUDE: the name of a file is missing', '', '')
   end subroutine read_include
+
+  recursive subroutine include_file(deck, cursor, name, depth, overrides, long, ended)
+    type(deck_t), intent(inout) :: deck
+    type(cursor_t), intent(in) :: cursor
+    character(*), intent(in) :: name
+    integer, intent(in) :: depth
+    type(override_t), intent(inout) :: overrides(:)
+    logical, intent(inout) :: long
+    logical, intent(out) :: ended
+    type(status_t) :: status
+    character(:), allocatable :: path
+    integer :: k
+    path = join_path(folder_of(deck%file(cursor%file)%path), name)
+    k = cursor%file
+    do while (k > 0)
+      if (deck%file(k)%path == path) &
+          call fail(status, status_deck, 'the file includes itself: "'//path//'"')
+      k = deck%file(k)%parent
+    end do
+    if (len(name) == 0) call fail(status, status_deck, 'the name of a file is missing')
+    if (depth >= include_depth) call fail(status, status_deck, 'more than '// &
+        to_text(include_depth)//' files include each other in a chain')
+    if (deck%files >= include_limit) &
+        call fail(status, status_deck, 'more than '//to_text(include_limit)//' files')
+    if (.not. failed(status)) then
+      deck%files = deck%files + 1
+      deck%file(deck%files)%parent = cursor%file
+      deck%file(deck%files)%parent_line = cursor%line
+      call load_file(path, deck%file(deck%files), status)
+    end if
+    if (failed(status)) then
+      call deck%complain_at(cursor%file, cursor%line, 0, 0, '*INCLUDE: '//status%message, &
+          deck%file(cursor%file)%text(cursor%first:cursor%last), &
+          'the name is relative to the file that includes it')
+    else
+      call read_file(deck, deck%files, depth + 1, overrides, long, ended)
+    end if
+  end subroutine include_file
 
 end module deck_reader

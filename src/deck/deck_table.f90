@@ -6,15 +6,14 @@ module deck_table
   implicit none
   private
   integer, parameter, public :: name_length = 10
+  integer, parameter, public :: keyword_length = 48
   integer, parameter, public :: max_fields = 10
 
   !> What the program does with a field.
   integer, parameter, public :: field_honoured = 1  !< used
-  !> of another method: accepted, one note, no effect
-  integer, parameter, public :: field_tuning = 2
+  integer, parameter, public :: field_tuning = 2    !< of another method: one note, no effect
   integer, parameter, public :: field_fixed = 3     !< must be blank or at its default
-  !> cannot matter here (a z direction): accepted
-  integer, parameter, public :: field_ignored = 4
+  integer, parameter, public :: field_ignored = 4   !< cannot matter in the plane: accepted
 
   type, public :: field_t
     character(name_length) :: name = ''
@@ -29,6 +28,7 @@ module deck_table
     real(wp) :: high = huge(1.0_wp)
     logical :: low_open = .false.
     logical :: high_open = .false.
+    character(64) :: words = ''        !< |A|B|: the words that are allowed; blank = any
     character(12) :: units = ''
     character(96) :: help = ''
   end type field_t
@@ -43,14 +43,16 @@ module deck_table
   integer, parameter, public :: keyword_refused = 3  !< known, but not available in this version
 
   type, public :: keyword_t
-    character(48) :: name = ''
+    character(keyword_length) :: name = ''       !< a name that ends in * stands for a family
+    character(keyword_length) :: canonical = ''  !< the name that handlers know it by
     integer :: class = keyword_used
     integer :: cards = 0
     integer :: required = 0        !< cards that must be there
     integer :: repeat_from = 0     !< after the last card go on with this one; 0 = no more cards
-    logical :: may_title = .false. !< _TITLE adds a text card
-    logical :: may_id = .false.    !< _ID adds a card with id and heading
+    logical :: may_title = .false. !< _TITLE adds a text card before each set of cards
+    logical :: may_id = .false.    !< _ID adds a card with id and heading before each set
     logical :: once = .false.      !< at most once per deck
+    logical :: noted = .false.     !< read and checked, but without effect: one note
     type(card_t), allocatable :: card(:)
     character(96) :: help = ''
   end type keyword_t
@@ -60,21 +62,23 @@ module deck_table
     type(keyword_t), allocatable :: keyword(:)
   end type table_t
 
-  public :: add_keyword, add_card, add_field, find_keyword, field_index
+  public :: add_keyword, add_alias, add_card, add_field, find_keyword, field_index, family_of
 
 contains
 
   !> Opens a new row of the table.
-  subroutine add_keyword(table, name, help, class, required, repeat_from, title, id, once)
+  subroutine add_keyword(table, name, help, class, required, repeat_from, title, id, &
+      once, noted)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name
     character(*), intent(in) :: help
     integer, intent(in), optional :: class, required, repeat_from
-    logical, intent(in), optional :: title, id, once
-    if (.not. allocated(table%keyword)) allocate (table%keyword(160))
+    logical, intent(in), optional :: title, id, once, noted
+    if (.not. allocated(table%keyword)) allocate (table%keyword(240))
     table%n = table%n + 1
     associate (k => table%keyword(table%n))
       k%name = name
+      k%canonical = name
       k%help = help
       if (present(class)) k%class = class
       if (present(required)) k%required = required
@@ -82,9 +86,20 @@ contains
       if (present(title)) k%may_title = title
       if (present(id)) k%may_id = id
       if (present(once)) k%once = once
+      if (present(noted)) k%noted = noted
       allocate (k%card(0))
     end associate
   end subroutine add_keyword
+
+  !> Another name for the last keyword.
+  subroutine add_alias(table, name)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name
+    table%n = table%n + 1
+    table%keyword(table%n) = table%keyword(table%n - 1)
+    table%keyword(table%n)%name = name
+    table%keyword(table%n)%help = 'the same as *'//trim(table%keyword(table%n)%canonical)
+  end subroutine add_alias
 
   !> Opens a new card of the last keyword.
   subroutine add_card(table)
@@ -100,7 +115,7 @@ contains
 
   !> Adds a field to the last card. spec holds blank-separated words: kind and width first
   !> ("R10"), then any of "req", "note", "fixed", "ignored", "0=d", "=default", "[units]", ">x",
-  !> ">=x", "<x", "<=x".
+  !> ">=x", "<x", "<=x", "|A|B|" (the words allowed).
   subroutine add_field(table, name, spec, help)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name
@@ -147,6 +162,8 @@ contains
         f%default = word(2:)
       case ('[')
         f%units = word
+      case ('|')
+        f%words = word
       case ('>')
         read (word(skip + 1:), *) f%low
         f%low_open = skip == 1
@@ -157,15 +174,30 @@ contains
     end select
   end subroutine apply_word
 
-  !> Row of a keyword by its name (upper case, without options); 0 if there is none.
+  !> Row of a keyword by its exact name (upper case, without options); 0 if there is none.
   pure integer function find_keyword(table, name)
     type(table_t), intent(in) :: table
     character(*), intent(in) :: name
+    find_keyword = 0
+    if (len(name) > keyword_length) return
     do find_keyword = 1, table%n
       if (table%keyword(find_keyword)%name == name) return
     end do
     find_keyword = 0
   end function find_keyword
+
+  !> Row of the family (a name that ends in *) that a name belongs to; 0 if there is none.
+  pure integer function family_of(table, name)
+    type(table_t), intent(in) :: table
+    character(*), intent(in) :: name
+    integer :: star
+    do family_of = 1, table%n
+      star = index(table%keyword(family_of)%name, '*')
+      if (star == 0) cycle
+      if (index(name, table%keyword(family_of)%name(1:star - 1)) == 1) return
+    end do
+    family_of = 0
+  end function family_of
 
   !> Number of a field on a card by its name; 0 if there is none.
   pure integer function field_index(card, name)

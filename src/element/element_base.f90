@@ -13,7 +13,13 @@ module element_base
     procedure(mass_i), deferred :: mass
     procedure(widths_i), deferred :: widths
     procedure(area_i), deferred :: smallest_jacobian
+    procedure(strain_i), deferred :: mean_strain
   end type element_t
+
+  !> An element in a list of elements of several kinds.
+  type, public :: element_slot_t
+    class(element_t), allocatable :: item
+  end type element_slot_t
 
   abstract interface
     !> Stiffness (2n, 2n) [F/L] from coordinates x (2, n) [L], moduli d (3, 3), thickness [L];
@@ -51,6 +57,14 @@ module element_base
       real(wp), intent(in) :: x(:, :)
       real(wp) :: j
     end function area_i
+    !> Mean strain (exx, eyy, gxy) over the Gauss points, from displacements u (2, n) [L].
+    pure function strain_i(this, x, u) result(strain)
+      import :: element_t, wp
+      class(element_t), intent(in) :: this
+      real(wp), intent(in) :: x(:, :)
+      real(wp), intent(in) :: u(:, :)
+      real(wp) :: strain(3)
+    end function strain_i
   end interface
 
 end module element_base

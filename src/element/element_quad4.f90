@@ -12,8 +12,10 @@ module element_quad4
     procedure :: mass => quad4_mass
     procedure :: widths => quad4_widths
     procedure :: smallest_jacobian => quad4_smallest_jacobian
+    procedure :: mean_strain => quad4_mean_strain
   end type quad4_t
 
+  real(wp), parameter :: gauss = one/sqrt(3.0_wp)
   real(wp), parameter :: corner_1(4) = [-one, one, one, -one]
   real(wp), parameter :: corner_2(4) = [-one, -one, one, one]
 
@@ -53,23 +55,42 @@ contains
     real(wp), intent(in) :: d(3, 3)
     real(wp), intent(in) :: thickness
     real(wp), intent(out) :: ke(:, :)
-    real(wp), parameter :: g = one/sqrt(3.0_wp)
     real(wp) :: dn(4, 2), det_j, b(3, 8)
-    integer :: k, i
+    integer :: k
     ke = zero
     do k = 1, 4
-      call gradients(x, g*[corner_1(k), corner_2(k)], dn, det_j)
-      b = zero
-      do i = 1, 4
-        b(1, 2*i - 1) = dn(i, 1)
-        b(2, 2*i) = dn(i, 2)
-        b(3, 2*i - 1) = dn(i, 2)
-        b(3, 2*i) = dn(i, 1)
-      end do
+      call gradients(x, gauss*[corner_1(k), corner_2(k)], dn, det_j)
+      b = strain_matrix(dn)
       ke = ke + thickness*det_j*matmul(transpose(b), matmul(d, b))
     end do
     ke = half*(ke + transpose(ke))
   end subroutine quad4_stiffness
+
+  !> B: strains (exx, eyy, gxy) of unit displacements.
+  pure function strain_matrix(dn) result(b)
+    real(wp), intent(in) :: dn(4, 2)
+    real(wp) :: b(3, 8)
+    b = zero
+    b(1, 1::2) = dn(:, 1)
+    b(2, 2::2) = dn(:, 2)
+    b(3, 1::2) = dn(:, 2)
+    b(3, 2::2) = dn(:, 1)
+  end function strain_matrix
+
+  !> Mean over the four points; a translation of the element is taken off first.
+  pure function quad4_mean_strain(this, x, u) result(strain)
+    class(quad4_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: u(:, :)
+    real(wp) :: strain(3), dn(4, 2), det_j, relative(8)
+    integer :: k
+    relative = [(u(:, k) - u(:, 1), k=1, 4)]
+    strain = zero
+    do k = 1, 4
+      call gradients(x, gauss*[corner_1(k), corner_2(k)], dn, det_j)
+      strain = strain + 0.25_wp*matmul(strain_matrix(dn), relative)
+    end do
+  end function quad4_mean_strain
 
   !> Four points (+-a1, +-a2), weight one: a = 1/sqrt(3) is the consistent mass, a = 1 the
   !> lumped one, between them the modified rules of Guddati & Yue (2004).

@@ -3,6 +3,7 @@
 module element_registry
   use element_base, only: element_t
   use element_quad4, only: quad4_t
+  use element_tri3, only: tri3_t
   implicit none
   private
   public :: make_element
@@ -14,6 +15,8 @@ contains
     integer, intent(in) :: nodes
     class(element_t), allocatable, intent(out) :: element
     select case (nodes)
+    case (3)
+      allocate (element, source=tri3_t(name='TRI3', nodes=3))
     case (4)
       allocate (element, source=quad4_t(name='QUAD4', nodes=4))
     end select

@@ -13,6 +13,7 @@ module material_base
   contains
     procedure(moduli_i), deferred :: moduli
     procedure(speed_i), deferred :: wave_speed
+    procedure(across_i), deferred :: stress_across
   end type material_t
 
   !> A material in a list of materials of several kinds.
@@ -35,6 +36,14 @@ module material_base
       integer, intent(in) :: plane
       real(wp) :: c
     end function speed_i
+    !> Stress szz [F/L2] that goes with (sxx, syy, sxy).
+    pure function across_i(this, plane, stress) result(szz)
+      import :: material_t, wp
+      class(material_t), intent(in) :: this
+      integer, intent(in) :: plane
+      real(wp), intent(in) :: stress(3)
+      real(wp) :: szz
+    end function across_i
   end interface
 
 end module material_base

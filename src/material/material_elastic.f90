@@ -12,6 +12,7 @@ module material_elastic
   contains
     procedure :: moduli => elastic_moduli
     procedure :: wave_speed => elastic_wave_speed
+    procedure :: stress_across => elastic_stress_across
   end type elastic_t
 
 contains
@@ -44,5 +45,15 @@ contains
     d = this%moduli(plane)
     c = sqrt(d(1, 1)/this%density)
   end function elastic_wave_speed
+
+  !> Plane stress: none; plane strain: nu (sxx + syy).
+  pure function elastic_stress_across(this, plane, stress) result(szz)
+    class(elastic_t), intent(in) :: this
+    integer, intent(in) :: plane
+    real(wp), intent(in) :: stress(3)
+    real(wp) :: szz
+    szz = zero
+    if (plane /= plane_stress) szz = this%poisson*(stress(1) + stress(2))
+  end function elastic_stress_across
 
 end module material_elastic

@@ -6,6 +6,9 @@ module model_data
   use material_base, only: material_slot_t
   implicit none
   private
+  !> What a prescribed motion gives (VAD).
+  integer, parameter, public :: motion_velocity = 0, motion_acceleration = 1, &
+      motion_displacement = 2
 
   type, public :: part_t
     integer :: id = 0
@@ -26,8 +29,15 @@ module model_data
 
   type, public :: set_t
     integer :: id = 0
-    integer, allocatable :: member(:)  !< rows (not ids) of nodes or parts
+    integer, allocatable :: member(:)  !< rows (not ids) of nodes, parts or elements
   end type set_t
+
+  !> Element edges: rows of their nodes.
+  type, public :: segment_set_t
+    integer :: id = 0
+    integer :: record = 0
+    integer, allocatable :: node(:, :)  !< (2, segments)
+  end type segment_set_t
 
   type, public :: curve_t
     integer :: id = 0
@@ -35,12 +45,13 @@ module model_data
     real(wp), allocatable :: o(:)
   end type curve_t
 
-  !> Nodal force: value = factor * curve, on each node of the list.
+  !> Forces force(:, k) * factor * curve(time - arrival) on node(k), none before arrival.
   type, public :: load_t
     integer, allocatable :: node(:)
-    integer :: direction = 1
+    real(wp), allocatable :: force(:, :)  !< (2, nodes)
     integer :: curve = 0
     real(wp) :: factor = 1.0_wp
+    real(wp) :: arrival = 0.0_wp          !< [T]
   end type load_t
 
   !> Body load: acceleration of all mass = - factor * curve [L/T2].
@@ -50,9 +61,26 @@ module model_data
     real(wp) :: factor = 1.0_wp
   end type gravity_t
 
+  !> Motion of nodes in one direction by a curve, between birth and death.
+  type, public :: motion_t
+    integer, allocatable :: node(:)
+    integer :: direction = 1
+    integer :: kind = 0
+    integer :: curve = 0
+    real(wp) :: factor = 1.0_wp
+    real(wp) :: birth = 0.0_wp, death = huge(1.0_wp)  !< [T]
+    integer :: record = 0
+  end type motion_t
+
+  !> What a side of a contact card is.
+  integer, parameter, public :: side_part_set = 1, side_node_set = 2, side_part = 3, &
+      side_segment_set = 4
+
   type, public :: contact_card_t
     integer :: id = 0
-    integer :: side(2) = 0          !< > 0 part set id, < 0 node set id
+    integer :: kind(2) = 0          !< side_...
+    integer :: side(2) = 0          !< row of the set or part
+    integer :: contactor = 0        !< 1 = SURFA, 2 = SURFB, 0 = the side with the shorter edges
     real(wp) :: mu = 0.0_wp
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)
@@ -64,15 +92,20 @@ module model_data
     real(wp) :: glstat = 0.0_wp
     real(wp) :: matsum = 0.0_wp
     real(wp) :: nodout = 0.0_wp
+    real(wp) :: elout = 0.0_wp
     real(wp) :: rcforc = 0.0_wp
     real(wp) :: sleout = 0.0_wp
+    real(wp) :: spcforc = 0.0_wp
+    real(wp) :: ncforc = 0.0_wp
     real(wp) :: timing = 0.0_wp
     integer, allocatable :: history_node(:)
+    integer, allocatable :: history_element(:)
   end type requests_t
 
   type, public :: controls_t
     real(wp) :: end_time = 0.0_wp
     integer :: end_cycle = 0
+    real(wp) :: end_ratio = 0.0_wp      !< change of energy ratio that fails; 0 = off
     real(wp) :: dt = 0.0_wp
     character(10) :: scheme = 'NEWMARK'
     real(wp) :: theta = 0.5_wp
@@ -100,50 +133,117 @@ module model_data
     integer, allocatable :: element_id(:)
     integer, allocatable :: element_part(:)
     integer, allocatable :: element_record(:)
-    integer, allocatable :: connectivity(:, :)  !< (4, elements) rows of nodes
+    !> (4, elements) rows of nodes; a triangle has its third node twice
+    integer, allocatable :: connectivity(:, :)
     type(part_t), allocatable :: part(:)
     type(material_slot_t), allocatable :: material(:)
     type(set_t), allocatable :: node_set(:)
     type(set_t), allocatable :: part_set(:)
+    type(set_t), allocatable :: element_set(:)
+    type(segment_set_t), allocatable :: segment_set(:)
     type(curve_t), allocatable :: curve(:)
     type(load_t), allocatable :: load(:)
     type(gravity_t), allocatable :: gravity(:)
+    type(motion_t), allocatable :: motion(:)
     type(contact_card_t), allocatable :: contact(:)
     type(requests_t) :: requests
     type(controls_t) :: controls
   end type model_t
 
-  public :: curve_value, find_set
+  public :: count_steps, curve_value, curve_slope, corner_count, segment_owner
 
 contains
+
+  !> Number of steps of length dt to the end time, and the length of a cut last step (zero when
+  !> the end is a whole number of steps within 1e-9).
+  pure subroutine count_steps(end_time, dt, full_steps, last_step)
+    real(wp), intent(in) :: end_time, dt
+    integer, intent(out) :: full_steps
+    real(wp), intent(out) :: last_step
+    real(wp) :: steps
+    steps = end_time/dt
+    full_steps = nint(steps)
+    last_step = 0.0_wp
+    if (abs(steps - full_steps) <= 1.0e-9_wp*max(1.0_wp, steps)) return
+    full_steps = int(steps)
+    last_step = end_time - full_steps*dt
+  end subroutine count_steps
 
   !> Piecewise linear value of a curve; constant outside its range.
   pure real(wp) function curve_value(curve, time)
     type(curve_t), intent(in) :: curve
     real(wp), intent(in) :: time
-    integer :: k
+    integer :: low, high, middle
     associate (a => curve%a, o => curve%o, n => size(curve%a))
       if (time <= a(1)) then
         curve_value = o(1)
       else if (time >= a(n)) then
         curve_value = o(n)
       else
-        do k = 2, n
-          if (time <= a(k)) exit
+        low = 1
+        high = n
+        do while (high - low > 1)
+          middle = (low + high)/2
+          if (a(middle) < time) low = middle
+          if (.not. a(middle) < time) high = middle
         end do
-        curve_value = o(k - 1) + (o(k) - o(k - 1))*((time - a(k - 1))/(a(k) - a(k - 1)))
+        curve_value = o(low) + (o(high) - o(low))*((time - a(low))/(a(high) - a(low)))
       end if
     end associate
   end function curve_value
 
-  !> Row of a set by its id, 0 if there is none.
-  pure integer function find_set(sets, id)
-    type(set_t), intent(in) :: sets(:)
-    integer, intent(in) :: id
-    do find_set = 1, size(sets)
-      if (sets(find_set)%id == id) return
+  !> Slope of a curve just after a time; zero outside its range.
+  pure real(wp) function curve_slope(curve, time)
+    type(curve_t), intent(in) :: curve
+    real(wp), intent(in) :: time
+    integer :: k
+    curve_slope = 0.0_wp
+    do k = 2, size(curve%a)
+      if (curve%a(k - 1) <= time .and. curve%a(k) > time) &
+          curve_slope = (curve%o(k) - curve%o(k - 1))/(curve%a(k) - curve%a(k - 1))
     end do
-    find_set = 0
-  end function find_set
+  end function curve_slope
+
+  !> 3 for a triangle, 4 for a quadrilateral.
+  pure integer function corner_count(corner)
+    integer, intent(in) :: corner(4)
+    corner_count = merge(3, 4, corner(3) == corner(4))
+  end function corner_count
+
+  !> For each segment (two nodes) the one element that has it as an edge, and on which side: > 0
+  !> when the element runs from the first to the second node, < 0 when the other way; 0 when no
+  !> element or more than one has this edge.
+  pure function segment_owner(model, segment) result(owner)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: segment(:, :)
+    integer :: owner(size(segment, 2))
+    integer, allocatable :: first(:), next(:)
+    integer, allocatable :: hits(:)
+    integer :: e, k, s, a, b
+    allocate (first(model%nodes), next(size(segment, 2)), hits(size(segment, 2)))
+    first = 0
+    do s = 1, size(segment, 2)
+      a = minval(segment(:, s))
+      next(s) = first(a)
+      first(a) = s
+    end do
+    owner = 0
+    hits = 0
+    do e = 1, model%elements
+      do k = 1, corner_count(model%connectivity(:, e))
+        a = model%connectivity(k, e)
+        b = model%connectivity(1 + mod(k, corner_count(model%connectivity(:, e))), e)
+        s = first(min(a, b))
+        do while (s > 0)
+          if (maxval(segment(:, s)) == max(a, b)) then
+            hits(s) = hits(s) + 1
+            owner(s) = merge(e, -e, segment(1, s) == a)
+          end if
+          s = next(s)
+        end do
+      end do
+    end do
+    where (hits /= 1) owner = 0
+  end function segment_owner
 
 end module model_data

@@ -15,7 +15,7 @@ module output_table
   type, public :: table_file_t
     logical :: on = .false.
     real(wp) :: interval = zero   !< [T]
-    integer :: next = 0           !< rows are due from next*interval on
+    real(wp) :: next = zero       !< rows are due from next*interval on (a whole number)
     integer :: unit = -1
     integer :: filled = 0
     character(:), allocatable :: path
@@ -79,7 +79,11 @@ contains
     type(table_file_t), intent(inout) :: table
     real(wp), intent(in) :: time, h
     type(status_t), intent(inout) :: status
-    table%next = floor((time + 1.0e-9_wp*h)/table%interval) + 1
+    if (table%interval > 1.0e-6_wp*h) then
+      table%next = aint((time + 1.0e-9_wp*h)/table%interval) + 1.0_wp
+    else
+      table%next = zero           ! every step; the quotient might overflow
+    end if
     if (table%filled + 1024 > buffer_size) call write_out(table, status)
   end subroutine begin_row
 

@@ -10,7 +10,7 @@ program bipact
   use base_version, only: version
   use deck_help, only: write_keywords, write_usage
   use deck_keywords, only: fill_table
-  use output_rows, only: open_tables, close_tables
+  use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
   use run_data, only: run_t
   use run_loop, only: go_through_steps

@@ -12,7 +12,7 @@ module run_data
   use linalg_solver, only: solver_t, solver_options_t
   use model_data, only: model_t
   use model_state, only: state_t
-  use output_rows, only: tables_t
+  use output_tables, only: tables_t
   use time_base, only: scheme_t
   use time_ledger, only: ledger_t
   implicit none
@@ -27,9 +27,11 @@ module run_data
 
   type, public :: plan_t
     integer :: n = 0
-    type(feature_t) :: feature(24)
+    type(feature_t) :: feature(32)
     logical :: contact = .false.
     logical :: loads = .false.
+    logical :: motions = .false.
+    logical :: reactions = .false.   !< of held dofs, at every step
     logical :: ledger = .false.
     logical :: refinement = .false.
     integer :: full_steps = 0
@@ -56,6 +58,12 @@ module run_data
     real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) contact block
     real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
     real(wp), allocatable :: correction(:, :)              !< (2, n) only with refinement
+    ! (2, n), only with prescribed motions or a table of reactions
+    logical, allocatable :: active_motion(:)
+    real(wp), allocatable :: given(:, :)                   !< motion of held dofs [L]
+    real(wp), allocatable :: b_whole(:, :)                 !< b before it is cleared
+    real(wp), allocatable :: reaction(:, :)                !< of the step just done [F]
+    real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
     integer :: factors = 0, analyses = 0, solves = 0
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0

@@ -15,10 +15,12 @@ module run_loop
   use contact_stage, only: solve_contact, settle_contact
   use contact_work, only: add_contact_step, contact_work_t
   use linalg_solver, only: solve_whole
-  use output_rows, only: any_due, energies_due, write_rows
+  use output_tables, only: any_due, energies_due
   use run_data, only: run_t
+  use run_motion, only: activate_motions, impose_motions, restore_motions, find_reactions
   use run_progress, only: progress_t, show_progress, clear_progress
   use run_setup, only: factor_matrix
+  use run_tables, only: write_rows
   use time_ledger, only: evaluate_ledger
   implicit none
   private
@@ -55,6 +57,7 @@ contains
     logical :: acting
     t1 = merge(run%model%controls%end_time, (run%state%cycle + 1)*run%model%controls%dt, &
         run%state%cycle == run%plan%full_steps)
+    if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
     acting = .false.
@@ -63,7 +66,7 @@ contains
       run%b = zero
       if (run%plan%loads) call weigh_loads(run, t1)
       call run%scheme%right_side(stage, run%system, run%state, run%b)
-      if (run%system%any_fixed) call clear_fixed(run%system, run%b)
+      call hold_dofs(run, stage, t1)
       call run%timers%enter(phase_solve)
       call run%solver%forward(run%b, run%b_last)
       run%x_last = run%b_last
@@ -72,6 +75,7 @@ contains
       call run%solver%backward(run%x_last, run%x)
       run%solves = run%solves + 1
       if (run%plan%refinement) call refine(run, stage)
+      if (run%plan%motions) call restore_motions(run)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
       call swap(run%state%du, run%x)
@@ -91,6 +95,7 @@ contains
     integer, intent(in) :: stage
     integer :: k
     call run%timers%enter(phase_product)
+    if (run%plan%motions) run%b = run%b_whole
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
     call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
@@ -121,6 +126,29 @@ contains
     call move_alloc(b, a)
     call move_alloc(c, b)
   end subroutine swap
+
+  !> Motions that begin or end change the set of held dofs: another factor.
+  subroutine prepare_motions(run, t1, status)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: t1
+    type(status_t), intent(inout) :: status
+    logical :: changed
+    call activate_motions(run, t1, changed)
+    if (changed) call factor_matrix(run, .false., status)
+  end subroutine prepare_motions
+
+  !> Supports and prescribed motions in the right-hand side.
+  subroutine hold_dofs(run, stage, t1)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    if (run%plan%reactions) run%b_whole = run%b
+    if (run%plan%motions) then
+      call impose_motions(run, stage, t1)
+    else if (run%system%any_fixed) then
+      call clear_fixed(run%system, run%b)
+    end if
+  end subroutine hold_dofs
 
   !> Candidates for the step; a larger block means another elimination order.
   subroutine prepare_contact(run, t1, status)
@@ -193,10 +221,15 @@ contains
     type(run_t), intent(inout) :: run
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
+    real(wp) :: work
     call run%timers%enter(phase_energy)
     if (run%plan%loads) run%ledger%external = run%ledger%external &
         + sum(run%state%du*(run%scheme%load_work_weight(1)*run%load_0 &
         + run%scheme%load_work_weight(2)*run%load_1))
+    if (run%plan%reactions) then
+      call find_reactions(run, work)
+      run%ledger%motion = run%ledger%motion + work
+    end if
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
         + run%scheme%dissipation(run%system, run%state)
     if (.not. run%plan%contact) return
@@ -223,10 +256,7 @@ contains
       if (.not. any_due(run%tables, run%state%time, h)) return
     end if
     call run%timers%enter(phase_output)
-    run%tables%factors = run%factors
-    run%tables%solves = run%solves
-    call write_rows(run%tables, run%model, run%state, run%ledger, run%contact, run%timers, h, &
-        last, status)
+    call write_rows(run, last, status)
     call run%timers%enter(phase_other)
   end subroutine tell
 
@@ -249,6 +279,11 @@ contains
       if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
           'energy growth of '//to_text(run%ledger%largest_growth)//' of the largest term', &
           place=moment(run), hint='choose SCHEME THETA, or ACTION WARN')
+    end if
+    if (run%model%controls%end_ratio > zero) then
+      if (abs(run%ledger%ratio - one) > run%model%controls%end_ratio) call fail(status, &
+          status_numerical, 'the energy ratio is '//to_text(run%ledger%ratio)// &
+          ', beyond ENDENG of *CONTROL_TERMINATION', place=moment(run))
     end if
     if (.not. abs(run%ledger%total) <= huge(one)) call fail(status, status_numerical, &
         'the energy is no number any more (NaN or infinite)')

@@ -3,9 +3,8 @@
 !> called.
 module run_plan
   use base_kinds, only: wp, zero
-  use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
-  use model_data, only: model_t
+  use model_data, only: model_t, count_steps
   use run_data, only: plan_t
   implicit none
   private
@@ -13,18 +12,21 @@ module run_plan
 
 contains
 
-  !> Plans the run of a model; fails where a feature cannot do what the deck asks.
-  subroutine make_plan(model, plan, status)
+  !> Plans the run of a model.
+  subroutine make_plan(model, plan)
     type(model_t), intent(in) :: model
     type(plan_t), intent(inout) :: plan
-    type(status_t), intent(inout) :: status
-    call plan_steps(model, plan, status)
+    call plan_steps(model, plan)
     call plan_contact(model, plan)
     plan%loads = size(model%load) + size(model%gravity) > 0
     call add_feature(plan, 'loads', plan%loads, to_text(size(model%load))//' nodal, '// &
         to_text(size(model%gravity))//' body')
     call add_feature(plan, 'supports', any(model%fixed), to_text(count(model%fixed))// &
         ' fixed dofs')
+    plan%motions = size(model%motion) > 0
+    call add_feature(plan, 'motions', plan%motions, to_text(size(model%motion))//' prescribed')
+    plan%reactions = plan%motions .or. model%requests%spcforc > zero
+    call add_feature(plan, 'reactions', plan%reactions, 'motions or *DATABASE_SPCFORC')
     call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
         merge('1', '0', model%controls%redistribute))
     call add_feature(plan, 'kinematics', .false., &
@@ -33,31 +35,18 @@ contains
   end subroutine make_plan
 
   !> Number of steps; an end time that is no whole number of steps cuts the last one.
-  subroutine plan_steps(model, plan, status)
+  subroutine plan_steps(model, plan)
     type(model_t), intent(in) :: model
     type(plan_t), intent(inout) :: plan
-    type(status_t), intent(inout) :: status
-    real(wp) :: steps
     associate (c => model%controls)
-      steps = c%end_time/c%dt
-      if (.not. steps < 2.0e9_wp) then
-        call fail(status, status_deck, 'ENDTIM/DT0 asks for more than 2e9 steps')
-        return
-      end if
-      plan%full_steps = nint(steps)
-      if (abs(steps - plan%full_steps) > 1.0e-9_wp*max(1.0_wp, steps)) then
-        plan%full_steps = int(steps)
-        plan%last_step = c%end_time - plan%full_steps*c%dt
-        if (c%mass == 'DISPERSION' .and. c%courant < zero) call fail(status, status_deck, &
-          'ENDTIM is no whole number of steps DT0; the mass DISPERSION is tuned to one step', &
-          hint='change ENDTIM or DT0')
-      end if
+      call count_steps(c%end_time, c%dt, plan%full_steps, plan%last_step)
       if (c%end_cycle > 0 .and. c%end_cycle <= plan%full_steps) then
         plan%full_steps = c%end_cycle
         plan%last_step = zero
       end if
       call add_feature(plan, 'steps', .true., to_text(plan%full_steps)//' of '//to_text(c%dt))
-      call add_feature(plan, 'cut step', plan%last_step > zero, 'ENDTIM/DT0 = '//to_text(steps))
+      call add_feature(plan, 'cut step', plan%last_step > zero, 'ENDTIM/DT0 = '// &
+          to_text(c%end_time/c%dt))
     end associate
   end subroutine plan_steps
 
@@ -90,6 +79,10 @@ contains
       call add_feature(plan, 'matsum', r%matsum > zero, 'every '//to_text(r%matsum))
       call add_feature(plan, 'nodout', r%nodout > zero, to_text(size(r%history_node))// &
           ' nodes, every '//to_text(r%nodout))
+      call add_feature(plan, 'elout', r%elout > zero, to_text(size(r%history_element))// &
+          ' elements, every '//to_text(r%elout))
+      call add_feature(plan, 'spcforc', r%spcforc > zero, 'every '//to_text(r%spcforc))
+      call add_feature(plan, 'ncforc', r%ncforc > zero, 'every '//to_text(r%ncforc))
       call add_feature(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
       call add_feature(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
       call add_feature(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))

@@ -3,7 +3,7 @@
 module run_setup
   use assembly_system, only: make_system, effective_matrix, stiffness_ratio
   use base_kinds, only: wp, zero
-  use base_status, only: status_t, failed, fail, status_deck
+  use base_status, only: status_t, failed, add_place
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
   use contact_setup, only: make_contact, contact_nodes, find_candidates
   use deck_keywords, only: fill_table
@@ -14,6 +14,7 @@ module run_setup
   use linalg_registry, only: make_solver
   use model_state, only: make_state
   use run_data, only: run_t
+  use run_motion, only: activate_motions, start_reactions
   use run_plan, only: make_plan, add_feature
   use scene_model, only: make_scene
   use time_ledger, only: make_ledger
@@ -39,7 +40,7 @@ contains
     if (failed(status)) return
     call make_scene(run%deck, run%model, run%cone, run%solver_options, status)
     if (failed(status)) return
-    call make_plan(run%model, run%plan, status)
+    call make_plan(run%model, run%plan)
     call run%timers%enter(phase_other)
   end subroutine read_scene
 
@@ -60,7 +61,9 @@ contains
     if (failed(status)) return
     if (run%plan%contact) run%contact%keeps_before = run%scheme%weight_before > zero
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
+    call make_motions(run)
     call run%scheme%start(run%model, run%system, run%state, status)
+    if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     call make_solver(run%solver_options, run%solver, status)
     allocate (run%b(2, run%system%n), run%x(2, run%system%n))
@@ -74,6 +77,22 @@ contains
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
+
+  !> Work space of prescribed motions and reactions; the dofs that are held from the start.
+  subroutine make_motions(run)
+    type(run_t), intent(inout) :: run
+    logical :: changed
+    integer :: n
+    if (.not. run%plan%reactions) return
+    n = run%system%n
+    allocate (run%b_whole(2, n), run%reaction(2, n), run%mean_reaction(2, n))
+    run%reaction = zero
+    run%mean_reaction = zero
+    if (.not. run%plan%motions) return
+    allocate (run%given(2, n), run%active_motion(size(run%model%motion)))
+    run%active_motion = .false.
+    call activate_motions(run, run%scheme%h, changed)
+  end subroutine make_motions
 
   !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
   !> loses digits that the ledger needs: then each solve is followed by one correction.
@@ -95,6 +114,8 @@ contains
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
         run%scheme%h, 0, run%scheme%h, new_block, status)
+    if (failed(status)) &
+        call add_place(status, run%deck%place(run%model%contact(run%contact%searched)%record))
   end subroutine first_candidates
 
   !> Factor of the effective matrix, with the contact block last and its flexibility; again is

@@ -5,13 +5,18 @@ module scene_model
   use base_strings, only: to_text
   use cone_types, only: cone_options_t
   use deck_data, only: deck_t
+  use deck_problems, only: full
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t
-  use scene_controls, only: read_controls, read_contacts, read_requests, read_solver_options
-  use scene_ids, only: id_map_t
-  use scene_loads, only: read_curves, read_supports, read_loads, read_initial_velocities
-  use scene_material, only: read_materials
-  use scene_mesh, only: read_nodes, read_parts, read_elements, read_sets, check_mesh
+  use scene_contact, only: read_contacts
+  use scene_controls, only: read_controls, read_solver_options, note_keywords
+  use scene_ids, only: maps_t
+  use scene_loads, only: read_curves, read_loads
+  use scene_mesh, only: read_nodes, read_elements, check_mesh
+  use scene_motion, only: read_supports, read_motions, read_initial_velocities
+  use scene_output, only: read_requests
+  use scene_parts, only: read_materials, read_parts
+  use scene_sets, only: read_sets
   implicit none
   private
   public :: make_scene
@@ -25,25 +30,38 @@ contains
     type(cone_options_t), intent(inout) :: cone
     type(solver_options_t), intent(inout) :: solver
     type(status_t), intent(inout) :: status
-    type(id_map_t) :: nodes, parts
+    type(maps_t) :: maps
     if (deck%problems%count == 0) then
+      call note_keywords(deck)
       call read_controls(deck, model)
       call read_solver_options(deck, model%controls, cone, solver)
-      call read_nodes(deck, model, nodes)
-      call read_materials(deck, model)
-      call read_parts(deck, model, parts)
-      call read_elements(deck, model, nodes, parts)
-      call read_sets(deck, model, nodes, parts)
-      call read_curves(deck, model)
-      call read_supports(deck, model, nodes)
-      call read_loads(deck, model, nodes)
-      call read_initial_velocities(deck, model, nodes, parts)
-      call read_contacts(deck, model)
-      call read_requests(deck, model, nodes)
+      call read_nodes(deck, model, maps)
+      call read_materials(deck, model, maps)
+      call read_parts(deck, model, maps)
+      call read_elements(deck, model, maps)
     end if
     if (deck%problems%count == 0) call check_mesh(deck, model)
-    if (deck%problems%count > 0) call fail(status, status_deck, to_text(deck%problems%count)// &
-        ' problem(s) in the deck; nothing was computed')
+    if (deck%problems%count == 0) then
+      call read_sets(deck, model, maps)
+      call read_curves(deck, model, maps)
+      call read_supports(deck, model, maps)
+      call read_loads(deck, model, maps)
+      call read_motions(deck, model, maps)
+      call read_initial_velocities(deck, model, maps)
+      call read_contacts(deck, model, maps)
+      call read_requests(deck, model, maps)
+    end if
+    if (deck%problems%count > 0) call fail(status, status_deck, problem_count(deck)// &
+        ' in the deck; nothing was computed')
   end subroutine make_scene
+
+  !> "1 problem", "20 problems or more".
+  pure function problem_count(deck) result(text)
+    type(deck_t), intent(in) :: deck
+    character(:), allocatable :: text
+    text = to_text(deck%problems%count)// &
+        trim(merge(' problem ', ' problems', deck%problems%count == 1))
+    if (full(deck%problems)) text = text//' or more'
+  end function problem_count
 
 end module scene_model

@@ -40,6 +40,7 @@ module time_base
     procedure(right_side_i), deferred :: right_side
     procedure(update_i), deferred :: update
     procedure(dissipation_i), deferred :: dissipation
+    procedure(given_motion_i), deferred :: given_motion
   end type scheme_t
 
   abstract interface
@@ -83,6 +84,15 @@ module time_base
       type(system_t), intent(in) :: system
       type(state_t), intent(in) :: state
     end function dissipation_i
+    !> Motion of the step [L] of one dof that ends with a given displacement, velocity or
+    !> acceleration (kind: motion_... of model_data), by the scheme's own update.
+    pure real(wp) function given_motion_i(this, state, direction, node, kind, value)
+      import :: scheme_t, state_t, wp
+      class(scheme_t), intent(in) :: this
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: direction, node, kind
+      real(wp), intent(in) :: value
+    end function given_motion_i
   end interface
 
   public :: mass_product

@@ -7,7 +7,7 @@ module time_ledger
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, half, one
   use contact_work, only: contact_work_t
-  use model_data, only: model_t
+  use model_data, only: model_t, corner_count
   use model_state, only: state_t
   implicit none
   private
@@ -83,7 +83,7 @@ contains
     ledger%owner = -1
     corners = 0
     do e = 1, model%elements
-      do k = 1, 4
+      do k = 1, corner_count(model%connectivity(:, e))
         associate (i => model%connectivity(k, e), part => model%element_part(e))
           corners(i) = corners(i) + 1
           if (ledger%owner(i) == -1) ledger%owner(i) = part
@@ -95,7 +95,7 @@ contains
       if (pass == 2) allocate (ledger%corner(2, n), ledger%corner_share(n))
       n = 0
       do e = 1, model%elements
-        do k = 1, 4
+        do k = 1, corner_count(model%connectivity(:, e))
           if (ledger%owner(model%connectivity(k, e)) /= 0) cycle
           n = n + 1
           if (pass == 1) cycle

@@ -2,9 +2,8 @@
 !> Newmark's method (1959):
 !>   V1 = V0 + h [(1 - gamma) A0 + gamma A1],  U1 = U0 + h V0 + h^2 [(1/2 - beta) A0 + beta A1],
 !> contact force at the end of the step, r1. On impact it gains energy without bound: it is here
-!> to be compared with.
-!> One stage: [M/(beta h^2) + K] x = M D/(beta h^2) - K U0 + P1 + R1, D = h V0 + h^2 (1/2 -
-!> beta) A0.
+!> to be compared with. One stage: [M/(beta h^2) + K] x = M D/(beta h^2) - K U0 + P1 + R1, D = h
+!> V0 + h^2 (1/2 - beta) A0.
 module time_newmark
   use assembly_forces, only: subtract_internal_force, strain_product, add_loads
   use assembly_system, only: system_t, multiply_mass, effective_matrix, clear_fixed
@@ -13,7 +12,8 @@ module time_newmark
   use linalg_graph, only: block_matrix_t
   use linalg_registry, only: make_solver
   use linalg_solver, only: solver_t, solver_options_t, solve_whole
-  use model_data, only: model_t
+  use model_data, only: model_t, curve_value, curve_slope, motion_velocity, &
+      motion_acceleration, motion_displacement
   use model_state, only: state_t
   use time_base, only: scheme_t, stage_t, mass_product
   implicit none
@@ -30,6 +30,7 @@ module time_newmark
     procedure :: right_side => newmark_right_side
     procedure :: update => newmark_update
     procedure :: dissipation => newmark_dissipation
+    procedure :: given_motion => newmark_given_motion
   end type newmark_t
 
   !> A mass pivot below this share of its diagonal is round-off of a singular mass.
@@ -60,12 +61,14 @@ contains
     type(status_t), intent(inout) :: status
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
-    real(wp), allocatable :: f(:, :)
+    real(wp), allocatable :: f(:, :), a(:, :)
     real(wp) :: size_f
     allocate (this%d(2, system%n))
     if (this%dissipates) allocate (this%a_before(2, system%n))
     allocate (f(2, system%n))
     f = zero
+    call give_accelerations(model, state%a)
+    call multiply_mass(system, -one, state%a, f)
     call add_loads(model, system, zero, one, f)
     call subtract_internal_force(system, one, state%u, f)
     call clear_fixed(system, f)
@@ -76,14 +79,32 @@ contains
     call solver%analyse(system%graph, [integer ::], status)
     call solver%factor(system%graph, matrix, status)
     if (failed(status)) return
-    call solve_whole(solver, f, state%a)
-    call multiply_mass(system, -one, state%a, f)
+    allocate (a, mold=f)
+    call solve_whole(solver, f, a)
+    call multiply_mass(system, -one, a, f)
     call clear_fixed(system, f)
     if (maxval(abs(f)) > 1.0e-9_wp*size_f) &
         call fail(status, status_numerical, 'NEWMARK cannot start: the mass '// &
         trim(model%controls%mass)//' is singular and the loads at t = 0 act '// &
         'where it is zero', hint='choose another mass, or SCHEME THETA')
+    state%a = state%a + a
   end subroutine newmark_start
+
+  !> Accelerations at t = 0 of dofs whose motion is prescribed from the start.
+  subroutine give_accelerations(model, a)
+    type(model_t), intent(in) :: model
+    real(wp), intent(inout) :: a(:, :)
+    real(wp) :: value
+    integer :: k
+    do k = 1, size(model%motion)
+      associate (m => model%motion(k))
+        if (m%birth > zero .or. m%kind == motion_displacement) cycle
+        value = m%factor*curve_value(model%curve(m%curve), zero)
+        if (m%kind == motion_velocity) value = m%factor*curve_slope(model%curve(m%curve), zero)
+        a(m%direction, m%node) = value
+      end associate
+    end do
+  end subroutine give_accelerations
 
   subroutine newmark_right_side(this, stage, system, state, b)
     class(newmark_t), intent(inout) :: this
@@ -129,5 +150,23 @@ contains
     newmark_dissipation = newmark_dissipation + (this%gamma - half)*(strain_product(system, &
         state%du) + c*mass_product(system, this%a_before, this%a_before))
   end function newmark_dissipation
+
+  !> x = U1 - U0, or D + beta h^2 A1 with A1 given or from V1.
+  pure real(wp) function newmark_given_motion(this, state, direction, node, kind, value)
+    class(newmark_t), intent(in) :: this
+    type(state_t), intent(in) :: state
+    integer, intent(in) :: direction, node, kind
+    real(wp), intent(in) :: value
+    real(wp) :: a1
+    associate (v0 => state%v(direction, node), a0 => state%a(direction, node), h => this%h)
+      if (kind == motion_displacement) then
+        newmark_given_motion = value - state%u(direction, node)
+        return
+      end if
+      a1 = value
+      if (kind == motion_velocity) a1 = ((value - v0)/h - (one - this%gamma)*a0)/this%gamma
+      newmark_given_motion = h*v0 + h**2*((half - this%beta)*a0 + this%beta*a1)
+    end associate
+  end function newmark_given_motion
 
 end module time_newmark

@@ -2,8 +2,8 @@
 !> The first-order theta-method without accelerations (Jean 1999):
 !>   U1 - U0 = h [(1 - theta) V0 + theta V1]
 !> M (V1 - V0) = h [(1 - xi) F0 + xi F1] + h R1,  F = P - K U,  the reactions R fully implicit.
-!> One stage: [M/(theta h^2) + xi K] x = M V0/(theta h) + (1 - xi) P0 + xi P1 - K U0 + R1.
-!> A massless node has no inertia: at xi = 1/2 the force that is left on it when contact ends
+!> One stage: [M/(theta h^2) + xi K] x = M V0/(theta h) + (1 - xi) P0 + xi P1 - K U0 + R1. A
+!> massless node has no inertia: at xi = 1/2 the force that is left on it when contact ends
 !> would change sign at every step for ever (F1 = -F0). The elements that hold such nodes
 !> therefore get xi = 1/2 + layer_damping: the force left dies out within some 25 steps, and the
 !> ledger counts what it took.
@@ -12,7 +12,7 @@ module time_theta
   use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
-  use model_data, only: model_t
+  use model_data, only: model_t, motion_displacement
   use model_state, only: state_t
   use time_base, only: scheme_t, stage_t, mass_product
   implicit none
@@ -28,6 +28,7 @@ module time_theta
     procedure :: right_side => theta_right_side
     procedure :: update => theta_update
     procedure :: dissipation => theta_dissipation
+    procedure :: given_motion => theta_given_motion
   end type theta_t
 
   !> 0.01: the smallest round value for which the alternation is gone between two rows of a
@@ -107,5 +108,19 @@ contains
     if (this%stage(1)%c_c > zero) theta_dissipation = theta_dissipation &
         + this%stage(1)%c_c*damping_product(system, state%du)
   end function theta_dissipation
+
+  !> x = U1 - U0, or h [(1 - theta) V0 + theta V1].
+  pure real(wp) function theta_given_motion(this, state, direction, node, kind, value)
+    class(theta_t), intent(in) :: this
+    type(state_t), intent(in) :: state
+    integer, intent(in) :: direction, node, kind
+    real(wp), intent(in) :: value
+    if (kind == motion_displacement) then
+      theta_given_motion = value - state%u(direction, node)
+    else
+      theta_given_motion = &
+          this%h*((one - this%theta)*state%v(direction, node) + this%theta*value)
+    end if
+  end function theta_given_motion
 
 end module time_theta

@@ -1,0 +1,88 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Keywords of contact and of the tables.
+module deck_keywords_contact
+  use deck_table, only: table_t, add_keyword, add_card, add_field
+  implicit none
+  private
+  public :: add_contact_keywords, add_output_keywords
+
+contains
+
+  !> Adds the contact cards of plane models.
+  subroutine add_contact_keywords(table)
+    type(table_t), intent(inout) :: table
+    call add_contact(table, 'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', &
+        'contact of two bodies; the side with the shorter edges gives the nodes')
+    call add_contact(table, 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
+        'contact of the nodes of SURFA with the edges of SURFB')
+  end subroutine add_contact_keywords
+
+  subroutine add_contact(table, name, help)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, help
+    call add_keyword(table, name, help, id=.true., required=1)
+    call add_card(table)
+    call add_field(table, 'SURFA', 'I10 req', 'part set; < 0: node set')
+    call add_field(table, 'SURFB', 'I10 req', 'part set; < 0: node set')
+    call add_field(table, 'SFACT', 'R10 note', 'of penalty methods')
+    call add_field(table, 'FREQ', 'I10 note', 'of penalty methods')
+    call add_field(table, 'FS', 'R10 =0.0 >=0', 'coefficient of friction mu')
+    call add_field(table, 'FD', 'R10 =0.0 >=0', 'has no effect while DC = 0')
+    call add_field(table, 'DC', 'R10 fixed', 'decay of friction with velocity')
+    call add_card(table)
+    call add_field(table, 'TBIRTH', 'R10 =0.0 [T]', 'contact is active from this time')
+    call add_field(table, 'TDEATH', 'R10 =1.0E20 0=d [T]', 'to this time')
+    call add_field(table, 'SOA', 'R10 note')
+    call add_field(table, 'SOB', 'R10 note')
+    call add_field(table, 'NDA', 'I10 note')
+    call add_field(table, 'NDB', 'I10 note')
+    call add_field(table, 'COF', 'I10 note')
+    call add_field(table, 'INIT', 'I10 fixed')
+    call add_card(table)
+    call add_field(table, 'VC', 'R10 fixed', 'viscous friction')
+    call add_field(table, 'VDC', 'R10 note', 'of penalty methods')
+    call add_field(table, 'IPF', 'I10 fixed')
+    call add_field(table, 'SLIDE', 'I10 fixed')
+    call add_field(table, 'ISTIFF', 'I10 note')
+    call add_field(table, 'TIEDGAP', 'R10 fixed')
+    call add_field(table, 'IGAPCL', 'I10 fixed')
+    call add_field(table, 'TIETYP', 'I10 fixed')
+    call add_card(table)
+    call add_field(table, 'SLDSOA', 'R10 fixed')
+    call add_field(table, 'SLDSOB', 'R10 fixed')
+    call add_field(table, 'TDPEN', 'R10 note')
+  end subroutine add_contact
+
+  !> Adds the requests for tables and their nodes and elements.
+  subroutine add_output_keywords(table)
+    type(table_t), intent(inout) :: table
+    character(7), parameter :: names(8) = ['GLSTAT ', 'MATSUM ', 'NODOUT ', 'ELOUT  ', &
+        'RCFORC ', 'SLEOUT ', 'SPCFORC', 'NCFORC ']
+    integer :: k
+    do k = 1, size(names)
+      call add_keyword(table, 'DATABASE_'//trim(names(k)), 'table '//trim(names(k)), &
+          required=1, once=.true.)
+      call add_card(table)
+      call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
+      call add_field(table, 'BINARY', 'I10 note', 'tables are text')
+      call add_field(table, 'LCUR', 'I10 fixed')
+      call add_field(table, 'IOOPT', 'I10 note')
+    end do
+    call add_history(table, 'DATABASE_HISTORY_NODE', 'node', 'NODOUT')
+    call add_history(table, 'DATABASE_HISTORY_NODE_SET', 'node set', 'NODOUT')
+    call add_history(table, 'DATABASE_HISTORY_SHELL', 'element', 'ELOUT')
+    call add_history(table, 'DATABASE_HISTORY_SHELL_SET', 'element set', 'ELOUT')
+  end subroutine add_output_keywords
+
+  subroutine add_history(table, name, what, which)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, what, which
+    integer :: k
+    call add_keyword(table, name, what//'s of '//which, repeat_from=1, required=1)
+    call add_card(table)
+    do k = 1, 8
+      call add_field(table, 'ID'//achar(48 + k), 'I10 =0 >=0', what)
+    end do
+  end subroutine add_history
+
+end module deck_keywords_contact

@@ -1,0 +1,187 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Keywords of motion and load: initial velocities, supports, prescribed motions, loads, curves.
+module deck_keywords_load
+  use deck_table, only: table_t, add_keyword, add_card, add_field
+  implicit none
+  private
+  public :: add_load_keywords
+
+contains
+
+  !> Adds the rows of motions and loads.
+  subroutine add_load_keywords(table)
+    type(table_t), intent(inout) :: table
+    call add_initial_velocities(table)
+    call add_generation(table)
+    call add_support(table, 'BOUNDARY_SPC_SET', 'NSID', 'node set')
+    call add_support(table, 'BOUNDARY_SPC_NODE', 'NID', 'node')
+    call add_motion(table, 'BOUNDARY_PRESCRIBED_MOTION_SET', 'NSID', 'node set')
+    call add_motion(table, 'BOUNDARY_PRESCRIBED_MOTION_NODE', 'NID', 'node')
+    call add_load(table, 'LOAD_NODE_SET', 'NSID', 'node set')
+    call add_load(table, 'LOAD_NODE_POINT', 'NID', 'node')
+    call add_segment_loads(table)
+    call add_body_load(table, 'LOAD_BODY_X')
+    call add_body_load(table, 'LOAD_BODY_Y')
+    call add_curve(table)
+  end subroutine add_load_keywords
+
+  subroutine add_initial_velocities(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'INITIAL_VELOCITY', 'initial velocity of a node set', required=2)
+    call add_card(table)
+    call add_field(table, 'NSID', 'I10 =0 >=0', 'node set; 0 = all nodes')
+    call add_field(table, 'NSIDEX', 'I10 fixed')
+    call add_field(table, 'BOXID', 'I10 fixed')
+    call add_field(table, 'IRIGID', 'I10 fixed')
+    call add_field(table, 'ICID', 'I10 fixed')
+    call add_card(table)
+    call add_velocity(table)
+    call add_keyword(table, 'INITIAL_VELOCITY_NODE', 'initial velocities of nodes', &
+        repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'NID', 'I10 req >0', 'node')
+    call add_velocity(table)
+    call add_field(table, 'ICID', 'I10 fixed')
+  end subroutine add_initial_velocities
+
+  subroutine add_velocity(table)
+    type(table_t), intent(inout) :: table
+    call add_field(table, 'VX', 'R10 =0.0 [L/T]', 'velocity')
+    call add_field(table, 'VY', 'R10 =0.0 [L/T]', 'velocity')
+    call add_field(table, 'VZ', 'R10 fixed [L/T]', 'the model is plane')
+    call add_field(table, 'VXR', 'R10 fixed')
+    call add_field(table, 'VYR', 'R10 fixed')
+    call add_field(table, 'VZR', 'R10 fixed')
+  end subroutine add_velocity
+
+  subroutine add_generation(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'INITIAL_VELOCITY_GENERATION', &
+        'initial velocity of parts or nodes', required=2)
+    call add_card(table)
+    call add_field(table, 'ID', 'I10 =0 >=0', 'part set, part or node set by STYP; 0 = all')
+    call add_field(table, 'STYP', 'I10 =1 0=d >=1 <=3', '1 part set, 2 part, 3 node set')
+    call add_field(table, 'OMEGA', 'R10 =0.0 [1/T]', 'angular velocity about z through XC, YC')
+    call add_field(table, 'VX', 'R10 =0.0 [L/T]', 'velocity')
+    call add_field(table, 'VY', 'R10 =0.0 [L/T]', 'velocity')
+    call add_field(table, 'VZ', 'R10 fixed [L/T]', 'the model is plane')
+    call add_field(table, 'IVATN', 'I10 note')
+    call add_field(table, 'ICID', 'I10 fixed')
+    call add_card(table)
+    call add_field(table, 'XC', 'R10 =0.0 [L]', 'centre of rotation')
+    call add_field(table, 'YC', 'R10 =0.0 [L]', 'centre of rotation')
+    call add_field(table, 'ZC', 'R10 ignored [L]')
+    call add_field(table, 'NX', 'R10 fixed', 'the axis is z')
+    call add_field(table, 'NY', 'R10 fixed', 'the axis is z')
+    call add_field(table, 'NZ', 'R10 =1.0 0=d', '1 or -1: the sense of rotation')
+    call add_field(table, 'PHASE', 'I10 fixed')
+    call add_field(table, 'IRIGID', 'I10 fixed')
+  end subroutine add_generation
+
+  subroutine add_support(table, name, id, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, id, what
+    call add_keyword(table, name, 'fixed directions of a '//what, repeat_from=1, &
+        id=.true., required=1)
+    call add_card(table)
+    call add_field(table, id, 'I10 req >0', what)
+    call add_field(table, 'CID', 'I10 fixed')
+    call add_field(table, 'DOFX', 'I10 =0 >=0 <=1', '1 = fixed')
+    call add_field(table, 'DOFY', 'I10 =0 >=0 <=1', '1 = fixed')
+    call add_field(table, 'DOFZ', 'I10 ignored >=0 <=1')
+    call add_field(table, 'DOFRX', 'I10 ignored >=0 <=1')
+    call add_field(table, 'DOFRY', 'I10 ignored >=0 <=1')
+    call add_field(table, 'DOFRZ', 'I10 ignored >=0 <=1')
+  end subroutine add_support
+
+  subroutine add_motion(table, name, id, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, id, what
+    call add_keyword(table, name, 'motion of a '//what//' by a curve', repeat_from=1, &
+        id=.true., required=1)
+    call add_card(table)
+    call add_field(table, id, 'I10 req >0', what)
+    call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
+    call add_field(table, 'VAD', 'I10 =0 >=0 <=2', &
+        '0 velocity, 1 acceleration (NEWMARK only), 2 displacement')
+    call add_field(table, 'LCID', 'I10 req >0', 'curve over time')
+    call add_field(table, 'SF', 'R10 =1.0 0=d', 'factor of the curve')
+    call add_field(table, 'VID', 'I10 fixed')
+    call add_field(table, 'DEATH', 'R10 =1.0E28 0=d [T] >0', 'free after this time')
+    call add_field(table, 'BIRTH', 'R10 =0.0 [T] >=0', 'free before this time')
+  end subroutine add_motion
+
+  subroutine add_load(table, name, id, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, id, what
+    call add_keyword(table, name, 'force on every node of a '//what, repeat_from=1, required=1)
+    call add_card(table)
+    call add_field(table, id, 'I10 req >0', what)
+    call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
+    call add_field(table, 'LCID', 'I10 req >0', 'curve of the force [F] over time')
+    call add_field(table, 'SF', 'R10 =1.0 0=d', 'factor of the curve')
+    call add_field(table, 'CID', 'I10 fixed')
+    call add_field(table, 'M1', 'I10 fixed')
+    call add_field(table, 'M2', 'I10 fixed')
+    call add_field(table, 'M3', 'I10 fixed')
+  end subroutine add_load
+
+  subroutine add_segment_loads(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'LOAD_SEGMENT_SET', 'pressure on a segment set', &
+        repeat_from=1, required=1)
+    call add_card(table)
+    call add_field(table, 'SSID', 'I10 req >0', 'segment set')
+    call add_pressure(table)
+    call add_keyword(table, 'LOAD_SEGMENT', 'pressure on a segment', repeat_from=1, required=1)
+    call add_card(table)
+    call add_pressure(table)
+    call add_field(table, 'N1', 'I10 req >0', 'node of an exposed element edge')
+    call add_field(table, 'N2', 'I10 req >0', 'its other node; the order does not matter')
+    call add_field(table, 'N3', 'I10 =0 >=0', '0 or N2')
+    call add_field(table, 'N4', 'I10 =0 >=0', '0 or N2')
+  end subroutine add_segment_loads
+
+  subroutine add_pressure(table)
+    type(table_t), intent(inout) :: table
+    call add_field(table, 'LCID', 'I10 req >0', &
+        'curve of the pressure [F/L2] over time, positive toward the body')
+    call add_field(table, 'SF', 'R10 =1.0 0=d', 'factor of the curve')
+    call add_field(table, 'AT', 'R10 =0.0 [T] >=0', &
+        'arrival time: no pressure before; the curve starts then')
+  end subroutine add_pressure
+
+  subroutine add_body_load(table, name)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name
+    call add_keyword(table, name, &
+        'body load: acceleration = - SF * curve, on all parts', required=1)
+    call add_card(table)
+    call add_field(table, 'LCID', 'I10 req >0', 'curve of the base acceleration [L/T2]')
+    call add_field(table, 'SF', 'R10 =1.0 0=d', 'factor of the curve')
+    call add_field(table, 'LCIDDR', 'I10 fixed')
+    call add_field(table, 'XC', 'R10 fixed')
+    call add_field(table, 'YC', 'R10 fixed')
+    call add_field(table, 'ZC', 'R10 fixed')
+    call add_field(table, 'CID', 'I10 fixed')
+  end subroutine add_body_load
+
+  subroutine add_curve(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'DEFINE_CURVE', 'a function of time by points', title=.true., &
+        required=2, repeat_from=2)
+    call add_card(table)
+    call add_field(table, 'LCID', 'I10 req >0', 'curve number')
+    call add_field(table, 'SIDR', 'I10 fixed')
+    call add_field(table, 'SFA', 'R10 =1.0 0=d >0', 'scale of the abscissa')
+    call add_field(table, 'SFO', 'R10 =1.0 0=d', 'scale of the ordinate')
+    call add_field(table, 'OFFA', 'R10 =0.0', 'offset of the abscissa')
+    call add_field(table, 'OFFO', 'R10 =0.0', 'offset of the ordinate')
+    call add_field(table, 'DATTYP', 'I10 fixed')
+    call add_field(table, 'LCINT', 'I10 note')
+    call add_card(table)
+    call add_field(table, 'A', 'R20 =0.0 [T]', 'abscissa, increasing')
+    call add_field(table, 'O', 'R20 =0.0', 'ordinate; outside the range it is constant')
+  end subroutine add_curve
+
+end module deck_keywords_load

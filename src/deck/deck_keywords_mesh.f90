@@ -1,0 +1,168 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Keywords of the mesh: nodes, elements, parts, sections, materials, sets.
+module deck_keywords_mesh
+  use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field
+  implicit none
+  private
+  public :: add_mesh_keywords
+
+contains
+
+  !> Adds the rows of the mesh.
+  subroutine add_mesh_keywords(table)
+    type(table_t), intent(inout) :: table
+    call add_nodes_and_elements(table)
+    call add_parts(table)
+    call add_materials(table)
+    call add_list_set(table, 'SET_NODE_LIST', 'SET_NODE', 'NID', 'node')
+    call add_range_set(table, 'SET_NODE_LIST_GENERATE', 'node')
+    call add_list_set(table, 'SET_PART_LIST', 'SET_PART', 'PID', 'part')
+    call add_range_set(table, 'SET_PART_LIST_GENERATE', 'part')
+    call add_list_set(table, 'SET_SHELL_LIST', 'SET_SHELL', 'EID', 'element')
+    call add_range_set(table, 'SET_SHELL_LIST_GENERATE', 'element')
+    call add_segment_set(table)
+  end subroutine add_mesh_keywords
+
+  subroutine add_nodes_and_elements(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'NODE', 'nodes', repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'NID', 'I8 req >0', 'node number')
+    call add_field(table, 'X', 'R16 =0.0 [L]', 'coordinate')
+    call add_field(table, 'Y', 'R16 =0.0 [L]', 'coordinate')
+    call add_field(table, 'Z', 'R16 =0.0 [L]', 'the same for all nodes of a plane model')
+    call add_field(table, 'TC', 'I8 fixed', 'use *BOUNDARY_SPC')
+    call add_field(table, 'RC', 'I8 fixed')
+    call add_keyword(table, 'ELEMENT_SHELL', 'plane elements, counter-clockwise', repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'EID', 'I8 req >0', 'element number')
+    call add_field(table, 'PID', 'I8 req >0', 'part')
+    call add_field(table, 'N1', 'I8 req >0', 'node')
+    call add_field(table, 'N2', 'I8 req >0', 'node')
+    call add_field(table, 'N3', 'I8 req >0', 'node')
+    call add_field(table, 'N4', 'I8 =0 >=0', 'node; blank, 0 or N3: a triangle')
+    do k = 5, 8
+      call add_field(table, 'N'//achar(48 + k), 'I8 fixed')
+    end do
+    call add_keyword(table, 'ELEMENT_BEAM', 'boundary lines of mesh generators, left out: '// &
+        'their part must have no *PART', repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'EID', 'I8 req >0', 'element number')
+    call add_field(table, 'PID', 'I8 req >0', 'part')
+    do k = 1, 3
+      call add_field(table, 'N'//achar(48 + k), 'I8 ignored')
+    end do
+    call add_field(table, 'RT1', 'I8 ignored')
+    call add_field(table, 'RR1', 'I8 ignored')
+    call add_field(table, 'RT2', 'I8 ignored')
+    call add_field(table, 'RR2', 'I8 ignored')
+    call add_field(table, 'LOCAL', 'I8 ignored')
+  end subroutine add_nodes_and_elements
+
+  subroutine add_parts(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'PART', 'a body: section and material', repeat_from=1, required=2)
+    call add_card(table)
+    call add_field(table, 'HEADING', 'T70', 'any text')
+    call add_card(table)
+    call add_field(table, 'PID', 'I10 req >0', 'part number')
+    call add_field(table, 'SECID', 'I10 req >0', 'section')
+    call add_field(table, 'MID', 'I10 req >0', 'material')
+    call add_field(table, 'EOSID', 'I10 fixed')
+    call add_field(table, 'HGID', 'I10 fixed', 'elements are fully integrated')
+    call add_field(table, 'GRAV', 'I10 fixed')
+    call add_field(table, 'ADPOPT', 'I10 fixed')
+    call add_field(table, 'TMID', 'I10 fixed')
+    call add_keyword(table, 'SECTION_SHELL', 'plane strain or stress, thickness', &
+        title=.true., repeat_from=1, required=2)
+    call add_card(table)
+    call add_field(table, 'SECID', 'I10 req >0', 'section number')
+    call add_field(table, 'ELFORM', 'I10 =2', '12 plane stress, 13 plane strain')
+    call add_field(table, 'SHRF', 'R10 note')
+    call add_field(table, 'NIP', 'I10 =4', '4 = 2 x 2 Gauss points, which blank means here too')
+    call add_field(table, 'PROPT', 'R10 note')
+    call add_field(table, 'QR/IRID', 'R10 fixed')
+    call add_field(table, 'ICOMP', 'I10 fixed')
+    call add_field(table, 'SETYP', 'I10 note')
+    call add_card(table)
+    call add_field(table, 'T1', 'R10 =1.0 0=d [L] >=0', 'thickness')
+    call add_field(table, 'T2', 'R10 [L]', 'equal to T1, or blank')
+    call add_field(table, 'T3', 'R10 [L]', 'equal to T1, or blank')
+    call add_field(table, 'T4', 'R10 [L]', 'equal to T1, or blank')
+    call add_field(table, 'NLOC', 'R10 fixed')
+    call add_field(table, 'MAREA', 'R10 note')
+    call add_field(table, 'IDOF', 'R10 fixed')
+    call add_field(table, 'EDGSET', 'I10 fixed')
+  end subroutine add_parts
+
+  subroutine add_materials(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'MAT_ELASTIC', 'linear elastic material', title=.true., required=1)
+    call add_card(table)
+    call add_field(table, 'MID', 'I10 req >0', 'material number')
+    call add_field(table, 'RO', 'R10 req [M/L3] >0', 'density')
+    call add_field(table, 'E', 'R10 req [F/L2] >0', 'Young modulus')
+    call add_field(table, 'PR', 'R10 =0.0 >-1 <0.5', 'Poisson ratio')
+    call add_field(table, 'DA', 'R10 fixed')
+    call add_field(table, 'DB', 'R10 fixed')
+    call add_alias(table, 'MAT_001')
+  end subroutine add_materials
+
+  subroutine add_set_head(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_card(table)
+    call add_field(table, 'SID', 'I10 req >0', 'set number')
+    do k = 1, 4
+      call add_field(table, 'DA'//achar(48 + k), 'R10 fixed')
+    end do
+    call add_field(table, 'SOLVER', 'W10 fixed =MECH')
+    call add_field(table, 'ITS', 'W10 fixed')
+  end subroutine add_set_head
+
+  subroutine add_list_set(table, name, short, member, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, short, member, what
+    integer :: k
+    call add_keyword(table, name, what//' set', title=.true., required=2, repeat_from=2)
+    call add_set_head(table)
+    call add_card(table)
+    do k = 1, 8
+      call add_field(table, member//achar(48 + k), 'I10 =0 >=0', what//'; zeros are padding')
+    end do
+    call add_alias(table, short)
+  end subroutine add_list_set
+
+  subroutine add_range_set(table, name, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, what
+    integer :: k
+    call add_keyword(table, name, what//' set by ranges of numbers', title=.true., required=2, &
+        repeat_from=2)
+    call add_set_head(table)
+    call add_card(table)
+    do k = 1, 4
+      call add_field(table, 'B'//achar(48 + k)//'BEG', 'I10 =0 >=0', 'first '//what// &
+          ' of a range; numbers that do not exist are left out')
+      call add_field(table, 'B'//achar(48 + k)//'END', 'I10 =0 >=0', 'its last '//what)
+    end do
+  end subroutine add_range_set
+
+  subroutine add_segment_set(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'SET_SEGMENT', 'set of element edges', title=.true., required=2, &
+        repeat_from=2)
+    call add_set_head(table)
+    call add_card(table)
+    call add_field(table, 'N1', 'I10 req >0', 'node of an exposed element edge')
+    call add_field(table, 'N2', 'I10 req >0', 'its other node; the order does not matter')
+    call add_field(table, 'N3', 'I10 =0 >=0', '0 or N2')
+    call add_field(table, 'N4', 'I10 =0 >=0', '0 or N2')
+    do k = 1, 4
+      call add_field(table, 'A'//achar(48 + k), 'R10 fixed')
+    end do
+  end subroutine add_segment_set
+
+end module deck_keywords_mesh

@@ -1,0 +1,106 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The triangle of constant strain.
+module element_tri3
+  use base_kinds, only: wp, zero, half
+  use element_base, only: element_t
+  implicit none
+  private
+
+  type, extends(element_t), public :: tri3_t
+  contains
+    procedure :: stiffness => tri3_stiffness
+    procedure :: mass => tri3_mass
+    procedure :: widths => tri3_widths
+    procedure :: smallest_jacobian => tri3_smallest_jacobian
+    procedure :: mean_strain => tri3_mean_strain
+  end type tri3_t
+
+contains
+
+  !> Twice the area, from the first node: translations leave no trace in the digits.
+  pure real(wp) function double_area(x)
+    real(wp), intent(in) :: x(:, :)
+    double_area = (x(1, 2) - x(1, 1))*(x(2, 3) - x(2, 1)) &
+        - (x(1, 3) - x(1, 1))*(x(2, 2) - x(2, 1))
+  end function double_area
+
+  !> B' D B times the volume (Zienkiewicz & Taylor 2000, vol. 1, 4.2).
+  pure subroutine tri3_stiffness(this, x, d, thickness, ke)
+    class(tri3_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: d(3, 3)
+    real(wp), intent(in) :: thickness
+    real(wp), intent(out) :: ke(:, :)
+    real(wp) :: b(3, 6), k(6, 6)
+    b = strain_matrix(x)
+    k = matmul(transpose(b), matmul(d, b))
+    ke(1:6, 1:6) = 0.25_wp*thickness*double_area(x)*(k + transpose(k))
+  end subroutine tri3_stiffness
+
+  !> B: strains (exx, eyy, gxy) of unit displacements.
+  pure function strain_matrix(x) result(b)
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: b(3, 6)
+    integer :: i, j, k
+    b = zero
+    do i = 1, 3
+      j = 1 + mod(i, 3)
+      k = 1 + mod(i + 1, 3)
+      b(1, 2*i - 1) = (x(2, j) - x(2, k))/double_area(x)
+      b(2, 2*i) = (x(1, k) - x(1, j))/double_area(x)
+      b(3, 2*i - 1) = b(2, 2*i)
+      b(3, 2*i) = b(1, 2*i - 1)
+    end do
+  end function strain_matrix
+
+  !> The strain is constant; a translation of the element is taken off first.
+  pure function tri3_mean_strain(this, x, u) result(strain)
+    class(tri3_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: u(:, :)
+    real(wp) :: strain(3), b(3, 6)
+    integer :: i
+    b = strain_matrix(x)
+    strain = 0.0_wp
+    do i = 2, 3
+      strain = strain + matmul(b(:, 2*i - 1:2*i), u(:, i) - u(:, 1))
+    end do
+  end function tri3_mean_strain
+
+  !> Exact integral of N N'; the rule of integration points (a) is that of quadrilaterals.
+  pure subroutine tri3_mass(this, x, density, thickness, a, me)
+    class(tri3_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: density
+    real(wp), intent(in) :: thickness
+    real(wp), intent(in) :: a(2)
+    real(wp), intent(out) :: me(:, :)
+    integer :: i
+    me = density*thickness*double_area(x)/24.0_wp
+    do i = 1, 3
+      me(i, i) = 2.0_wp*me(i, i)
+    end do
+  end subroutine tri3_mass
+
+  !> Height over the longest edge, twice: a triangle has no two directions.
+  pure function tri3_widths(this, x) result(h)
+    class(tri3_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: h(2), longest
+    integer :: i
+    longest = zero
+    do i = 1, 3
+      longest = max(longest, sqrt(sum((x(:, 1 + mod(i, 3)) - x(:, i))**2)))
+    end do
+    h = double_area(x)/longest
+  end function tri3_widths
+
+  !> The determinant is constant.
+  pure function tri3_smallest_jacobian(this, x) result(j)
+    class(tri3_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: j
+    j = double_area(x)
+  end function tri3_smallest_jacobian
+
+end module element_tri3

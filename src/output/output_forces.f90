@@ -1,0 +1,130 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Rows of the tables of contact and support forces.
+module output_forces
+  use base_format, only: real_writer_t
+  use base_kinds, only: wp, zero, half
+  use base_status, only: status_t
+  use contact_types, only: contact_t, no_gap
+  use cone_types, only: certificate_t
+  use model_data, only: model_t
+  use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
+  use output_tables, only: add_numbers
+  implicit none
+  private
+  public :: write_rcforc, write_sleout, write_ncforc, write_spcforc
+
+contains
+
+  !> Sums of each side of each contact.
+  subroutine write_rcforc(file, writer, contact, time, h, status)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: time, h
+    type(status_t), intent(inout) :: status
+    integer :: p, s
+    do p = 1, size(contact%pair)
+      associate (c => contact%pair(p))
+        do s = 1, 2
+          call begin_row(file, time, h, status)
+          call add_number(file, writer, time)
+          call add_count(file, c%id)
+          call add_count(file, s)
+          call add_numbers(file, writer, &
+              [c%force(:, s), zero, half*(c%force(:, s) + c%force_before(:, s)), zero, &
+              c%impulse(:, s), zero, c%normal_force, c%tangential_force])
+          call add_count(file, c%n_active)
+          call add_count(file, c%n_stick)
+          call add_count(file, c%n_slip)
+          call add_number(file, writer, c%smallest_gap)
+          call end_row(file)
+        end do
+      end associate
+    end do
+  end subroutine write_rcforc
+
+  !> One row for the whole coupled problem (id 0), one per contact; the solver's figures are
+  !> those of the coupled problem in every row.
+  subroutine write_sleout(file, writer, contact, time, h, status)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: time, h
+    type(status_t), intent(inout) :: status
+    integer :: p
+    do p = 0, size(contact%pair)
+      call begin_row(file, time, h, status)
+      call add_number(file, writer, time)
+      if (p == 0) then
+        call add_count(file, 0)
+        call add_numbers(file, writer, &
+            [sum(contact%pair%normal_work), sum(contact%pair%friction_work)])
+      else
+        call add_count(file, contact%pair(p)%id)
+        call add_numbers(file, writer, &
+            [contact%pair(p)%normal_work, contact%pair(p)%friction_work])
+      end if
+      call add_count(file, contact%solves_since_row)
+      call add_count(file, contact%sweeps_since_row)
+      call add_numbers(file, writer, [contact%worst_since_row%eta, &
+          contact%worst_since_row%error, contact%worst_since_row%error2018])
+      if (p == 0) call add_number(file, writer, maxval([zero, contact%pair%penetration]))
+      if (p > 0) call add_number(file, writer, contact%pair(p)%penetration)
+      call end_row(file)
+    end do
+    contact%solves_since_row = 0
+    contact%sweeps_since_row = 0
+    contact%worst_since_row = certificate_t()
+    contact%pair%penetration = zero
+  end subroutine write_sleout
+
+  !> Nodes that are listed, or were pressed in this step or the last.
+  subroutine write_ncforc(file, writer, model, contact, time, h, status)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: time, h
+    type(status_t), intent(inout) :: status
+    real(wp) :: pressure
+    integer :: p, k
+    do p = 1, size(contact%pair)
+      associate (c => contact%pair(p)%nodal)
+        do k = 1, size(c%node)
+          if (c%gap(k) >= no_gap .and. .not. any(abs(c%before(:, k)) > zero)) cycle
+          pressure = zero
+          if (c%area(k) > zero) pressure = c%normal(k)/c%area(k)
+          call begin_row(file, time, h, status)
+          call add_number(file, writer, time)
+          call add_count(file, contact%pair(p)%id)
+          call add_count(file, c%side(k))
+          call add_count(file, model%node_id(c%node(k)))
+          call add_numbers(file, writer, [c%force(:, k), zero, &
+              half*(c%force(:, k) + c%before(:, k)), zero, pressure, c%gap(k), c%slip(k)])
+          call add_count(file, c%status(k))
+          call end_row(file)
+        end do
+      end associate
+    end do
+  end subroutine write_ncforc
+
+  !> Every node that is held in some direction by a support or by a motion that acts now.
+  subroutine write_spcforc(file, writer, model, held, reaction, time, h, status)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(model_t), intent(in) :: model
+    logical, intent(in) :: held(:, :)
+    real(wp), intent(in) :: reaction(:, :), time, h
+    type(status_t), intent(inout) :: status
+    integer :: k
+    do k = 1, model%nodes
+      if (.not. any(held(:, k))) cycle
+      call begin_row(file, time, h, status)
+      call add_number(file, writer, time)
+      call add_count(file, model%node_id(k))
+      call add_numbers(file, writer, [reaction(:, k), zero])
+      call end_row(file)
+    end do
+  end subroutine write_spcforc
+
+end module output_forces

@@ -1,0 +1,210 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Contact cards and what *BIPACT_PAIR says of them.
+module scene_contact
+  use base_kinds, only: wp, zero
+  use base_strings, only: to_text
+  use deck_data, only: deck_t
+  use deck_problems, only: add_note, add_warning
+  use model_data, only: model_t, contact_card_t, side_part_set, side_node_set, side_part, &
+      side_segment_set
+  use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
+  implicit none
+  private
+  public :: read_contacts
+
+  character(40), parameter :: keyword(2) = [character(40) :: &
+      'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE']
+  character(5), parameter :: surface(2) = ['SURFA', 'SURFB']
+  character(4), parameter :: kind_field(2) = ['ATYP', 'BTYP']
+
+contains
+
+  !> All contact cards, in the order of the deck; those without an id are numbered by it.
+  subroutine read_contacts(deck, model, maps)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    type(maps_t), intent(inout) :: maps
+    integer, allocatable :: record(:), other(:), pair(:)
+    integer :: k
+    call records_of(deck, trim(keyword(1)), 1, record)
+    call records_of(deck, trim(keyword(2)), 1, other)
+    record = merged(record, other)
+    allocate (model%contact(size(record)))
+    do k = 1, size(record)
+      call read_card(deck, record(k), k, model%contact(k))
+    end do
+    call make_id_map(deck, 'contact', 'SURFA', model%contact%id, record, maps%contact)
+    call read_pairs(deck, model, maps, pair)
+    do k = 1, size(record)
+      call find_sides(deck, model, maps, pair(k), model%contact(k))
+    end do
+    call warn_thickness(deck, model)
+  end subroutine read_contacts
+
+  !> Two increasing lists as one.
+  pure function merged(a, b) result(c)
+    integer, intent(in) :: a(:), b(:)
+    integer :: c(size(a) + size(b))
+    integer :: i, j, k
+    i = 1
+    j = 1
+    do k = 1, size(c)
+      if (j > size(b)) then
+        c(k) = a(i)
+      else if (i > size(a)) then
+        c(k) = b(j)
+      else
+        c(k) = min(a(i), b(j))
+      end if
+      if (i <= size(a)) then
+        if (a(i) == c(k)) then
+          i = i + 1
+          cycle
+        end if
+      end if
+      j = j + 1
+    end do
+  end function merged
+
+  subroutine read_card(deck, record, number, card)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record, number
+    type(contact_card_t), intent(inout) :: card
+    integer :: second
+    card%record = record
+    card%id = number
+    if (record > 1) then
+      if (deck%record(record - 1)%card == 0 .and. deck%record(record - 1)%block &
+          == deck%record(record)%block) card%id = head_number(deck, record - 1, number)
+    end if
+    if (index(deck%block(deck%record(record)%block)%written, '_NODE_TO_') > 0) &
+        card%contactor = 1
+    card%mu = deck%real(record, 'FS')
+    if (deck%is_given(record, 'FD') .and. abs(deck%real(record, 'FD') - card%mu) > zero) &
+        call add_note(deck%problems, deck%place(record)// &
+        ': FD has no effect while DC = 0; friction is FS = '//to_text(card%mu))
+    second = deck%follow(record, 2)
+    if (second == 0) return
+    card%birth = deck%real(second, 'TBIRTH')
+    card%death = deck%real(second, 'TDEATH')
+  end subroutine read_card
+
+  !> The id on a card of _ID; the number in the deck where it is blank.
+  integer function head_number(deck, record, number)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: record, number
+    integer :: ios, id
+    associate (r => deck%record(record))
+      associate (line => deck%file(deck%block(r%block)%file)%text(r%first:r%last))
+        head_number = number
+        if (len_trim(line(1:min(10, len(line)))) == 0) return
+        read (line(1:min(10, len(line))), *, iostat=ios) id
+        if (ios == 0) head_number = id
+      end associate
+    end associate
+  end function head_number
+
+  !> The *BIPACT_PAIR card of each contact, 0 = none.
+  subroutine read_pairs(deck, model, maps, pair)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    type(maps_t), intent(in) :: maps
+    integer, allocatable, intent(out) :: pair(:)
+    integer :: r, row
+    allocate (pair(size(model%contact)))
+    pair = 0
+    r = deck%next('BIPACT_PAIR', 1, 0)
+    do while (r > 0)
+      row = find_or_complain(deck, maps%contact, r, 'CID', deck%integer(r, 'CID'), 'contact')
+      if (row > 0) then
+        if (pair(row) > 0) &
+            call deck%complain(r, 'CID', 'contact '//to_text(model%contact(row)%id)// &
+            ' has a *BIPACT_PAIR already', 'the first is at '//deck%place(pair(row)))
+        pair(row) = r
+        if (deck%word(r, 'SIDE') == 'A') model%contact(row)%contactor = 1
+        if (deck%word(r, 'SIDE') == 'B') model%contact(row)%contactor = 2
+      end if
+      r = deck%next('BIPACT_PAIR', 1, r)
+    end do
+  end subroutine read_pairs
+
+  !> What SURFA and SURFB are: part sets, negative node sets, or as ATYP and BTYP say.
+  subroutine find_sides(deck, model, maps, pair, card)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
+    integer, intent(in) :: pair
+    type(contact_card_t), intent(inout) :: card
+    character(:), allocatable :: kind
+    integer :: s, id
+    do s = 1, 2
+      id = deck%integer(card%record, surface(s))
+      kind = ''
+      if (pair > 0) kind = deck%word(pair, kind_field(s))
+      if (kind == '' .and. id < 0) kind = 'NODESET'
+      select case (kind)
+      case ('NODESET')
+        card%kind(s) = side_node_set
+        card%side(s) = find_or_complain(deck, maps%node_set, card%record, surface(s), &
+            abs(id), 'node set')
+      case ('PART')
+        card%kind(s) = side_part
+        card%side(s) = find_or_complain(deck, maps%part, card%record, surface(s), id, 'part')
+      case ('SEGSET')
+        card%kind(s) = side_segment_set
+        card%side(s) = find_or_complain(deck, maps%segment_set, card%record, surface(s), id, &
+            'segment set')
+      case default
+        card%kind(s) = side_part_set
+        card%side(s) = maps%part_set%find(id)
+        if (card%side(s) == 0) &
+            call deck%complain(card%record, surface(s), 'part set '//to_text(id)// &
+            ' is not defined', 'SURFA and SURFB are part sets; negative: node sets')
+      end select
+    end do
+    if (card%kind(1) == side_part_set .and. card%kind(2) == side_part_set) &
+        call check_common_parts(deck, model, card)
+  end subroutine find_sides
+
+  !> A part on both sides would touch itself.
+  subroutine check_common_parts(deck, model, card)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(contact_card_t), intent(in) :: card
+    integer :: k
+    if (any(card%side == 0)) return
+    associate (a => model%part_set(card%side(1))%member, &
+        b => model%part_set(card%side(2))%member)
+      do k = 1, size(a)
+        if (.not. any(b == a(k))) cycle
+        call deck%complain(card%record, 'SURFB', 'part '//to_text(model%part(a(k))%id)// &
+            ' is on both sides', 'contact of a body with itself is not available')
+        return
+      end do
+    end associate
+  end subroutine check_common_parts
+
+  !> Bodies of different thickness in contact: forces are totals, pressures differ.
+  subroutine warn_thickness(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    real(wp) :: low, high
+    integer :: k, s
+    do k = 1, size(model%contact)
+      associate (card => model%contact(k))
+        if (any(card%side == 0) .or. any(card%kind /= side_part_set)) cycle
+        low = huge(low)
+        high = zero
+        do s = 1, 2
+          associate (member => model%part_set(card%side(s))%member)
+            low = min(low, minval(model%part(member)%thickness))
+            high = max(high, maxval(model%part(member)%thickness))
+          end associate
+        end do
+        if (high > low) call add_warning(deck%problems, deck%place(card%record)// &
+            ': bodies of unequal thickness are in contact')
+      end associate
+    end do
+  end subroutine warn_thickness
+
+end module scene_contact

@@ -1,0 +1,119 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Materials, sections and parts: from cards to the model.
+module scene_parts
+  use base_kinds, only: wp, zero
+  use base_strings, only: to_text
+  use deck_data, only: deck_t
+  use deck_problems, only: add_note, add_warning
+  use material_base, only: plane_stress, plane_strain
+  use material_registry, only: make_material
+  use model_data, only: model_t, section_t
+  use scene_ids, only: maps_t, make_id_map, records_of
+  implicit none
+  private
+  public :: read_materials, read_parts
+
+contains
+
+  !> Every *MAT_... block becomes a material.
+  subroutine read_materials(deck, model, maps)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    type(maps_t), intent(inout) :: maps
+    integer, allocatable :: ids(:), record(:)
+    real(wp) :: constants(7)
+    integer :: k, m
+    call records_of(deck, 'MAT_ELASTIC', 1, record)
+    allocate (ids(size(record)), model%material(size(record)))
+    do k = 1, size(record)
+      ids(k) = deck%integer(record(k), 'MID')
+      constants = zero
+      do m = 2, 4
+        constants(m - 1) = deck%number_at(record(k), m)
+      end do
+      call make_material('MAT_ELASTIC', ids(k), constants, model%material(k)%item)
+      if (deck%real(record(k), 'PR') > 0.49_wp) &
+          call add_warning(deck%problems, deck%place(record(k))//': PR > 0.49 of material '// &
+          to_text(ids(k))//': fully integrated elements lock')
+    end do
+    call make_id_map(deck, 'material', 'MID', ids, record, maps%material)
+  end subroutine read_materials
+
+  !> *SECTION_SHELL and *PART; materials must have been read.
+  subroutine read_parts(deck, model, maps)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    type(maps_t), intent(inout) :: maps
+    type(section_t), allocatable :: section(:)
+    integer, allocatable :: record(:)
+    integer :: k, row
+    call read_sections(deck, section, maps)
+    call records_of(deck, 'PART', 2, record)
+    allocate (model%part(size(record)))
+    do k = 1, size(record)
+      associate (p => model%part(k))
+        p%record = record(k)
+        p%id = deck%integer(record(k), 'PID')
+        p%section_id = deck%integer(record(k), 'SECID')
+        p%material_id = deck%integer(record(k), 'MID')
+        p%heading = deck%word(record(k) - 1, 'HEADING')
+        row = maps%section%find(p%section_id)
+        if (row == 0) then
+          call deck%complain(record(k), 'SECID', 'section '//to_text(p%section_id)// &
+              ' is not defined', 'add a *SECTION_SHELL with this number')
+        else
+          p%plane = section(row)%plane
+          p%thickness = section(row)%thickness
+        end if
+        p%material = maps%material%find(p%material_id)
+        if (p%material == 0) call deck%complain(record(k), 'MID', 'material '// &
+            to_text(p%material_id)//' is not defined', 'add a *MAT_ELASTIC with this number')
+      end associate
+    end do
+    call make_id_map(deck, 'part', 'PID', model%part%id, record, maps%part)
+  end subroutine read_parts
+
+  subroutine read_sections(deck, section, maps)
+    type(deck_t), intent(inout) :: deck
+    type(section_t), allocatable, intent(out) :: section(:)
+    type(maps_t), intent(inout) :: maps
+    integer, allocatable :: record(:), ids(:)
+    integer :: k
+    call records_of(deck, 'SECTION_SHELL', 1, record)
+    allocate (section(size(record)), ids(size(record)))
+    do k = 1, size(record)
+      associate (r => record(k))
+        ids(k) = deck%integer(r, 'SECID')
+        section(k)%id = ids(k)
+        section(k)%plane = deck%integer(r, 'ELFORM')
+        if (section(k)%plane /= plane_stress .and. section(k)%plane /= plane_strain) then
+          call deck%complain(r, 'ELFORM', 'expected 12 (plane stress) or 13 (plane strain)', &
+              'other element forms are not available in this version')
+          section(k)%plane = plane_strain
+        end if
+        if (deck%integer(r, 'NIP') /= 4) call deck%complain(r, 'NIP', &
+            'expected 4 or blank: elements are integrated with 2 x 2 points')
+        if (.not. deck%is_given(r, 'NIP')) call add_note(deck%problems, &
+            '*SECTION_SHELL NIP blank: quadrilaterals are integrated with 2 x 2 points')
+        call read_thickness(deck, deck%follow(r, 2), section(k))
+      end associate
+    end do
+    call make_id_map(deck, 'section', 'SECID', ids, record, maps%section)
+  end subroutine read_sections
+
+  subroutine read_thickness(deck, record, section)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    type(section_t), intent(inout) :: section
+    character(2), parameter :: other(3) = ['T2', 'T3', 'T4']
+    integer :: k
+    if (record == 0) return
+    section%thickness = deck%real(record, 'T1')
+    do k = 1, 3
+      if (.not. deck%is_given(record, other(k))) cycle
+      if (abs(deck%real(record, other(k)) - section%thickness) > zero) &
+          call deck%complain(record, other(k), 'expected the same thickness as T1, or blank')
+    end do
+  end subroutine read_thickness
+
+end module scene_parts
