@@ -19,14 +19,14 @@ Q := $(if $(V),,@)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .DEFAULT_GOAL := all
-.PHONY: all demo test test-unit test-programs check-style doc deps venv debug sanitize bench \
+.PHONY: all demo test test-unit test-programs check-style doc deps venv debug sanitize fuzz bench \
         clean distclean help FORCE
 
 # ---------------------------------------------------------------- targets for people
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
-light := demo test test-unit check-style doc deps venv debug sanitize bench clean distclean help
+light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
 all: $(BIN) ## build bin/bipact (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
@@ -52,6 +52,11 @@ doc: ## regenerate the generated pages of doc/
 	+@$(again) all
 	@if [ -x scripts/make_doc.sh ]; then scripts/make_doc.sh; else echo "doc: nothing to generate"; fi
 
+fuzz: ## run N (20000) damaged decks; SEED=1
+	+@$(again) all
+	@BIPACT=$(BIN) $(PYTHON3) tests/fuzz/fuzz.py --count $(or $(N),20000) --seed $(or $(SEED),1) \
+	  --keep build/fuzz
+
 bench: ## measure speed and accuracy
 	+@$(again) all
 	@if [ -x bench/run_bench.sh ]; then bench/run_bench.sh; else echo "bench: nothing to run"; fi
@@ -69,7 +74,7 @@ clean: ## remove what was built
 	rm -rf build bin
 
 distclean: clean ## remove .venv and demonstration results too
-	rm -rf .venv demo.out
+	rm -rf .venv .venv-pydyna demo.out
 
 help: ## show this list
 	@sed -n 's/^\([a-z][a-z -]*\):[^#]*## /\1: /p' $(firstword $(MAKEFILE_LIST)) \

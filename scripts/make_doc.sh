@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
-# Makes doc/deck.md from the table of keywords in the program: make_doc.sh [FILE]
+# Makes doc/deck.md and input/cards/every_keyword.k from the table of keywords in the program:
+# make_doc.sh [PAGE DECK]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-out=${1:-doc/deck.md}
+page=${1:-doc/deck.md}
+deck=${2:-input/cards/every_keyword.k}
+program=${BIPACT:-bin/bipact}
 {
   cat scripts/deck_head.md
-  "${BIPACT:-bin/bipact}" --keywords
-} > "$out"
+  "$program" --keywords
+} > "$page"
+"${PYTHON:-python3}" scripts/make_cards.py --bin "$program" -o "$deck"

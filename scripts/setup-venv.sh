@@ -1,12 +1,14 @@
 #!/bin/sh
 # Makes .venv with the packages of requirements.txt, when it is missing or they changed.
-# PYTHON names another interpreter than python3.
+# PYTHON names another interpreter than python3, VENV and REQUIREMENTS another folder and list.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
 python=${PYTHON:-python3}
-stamp=.venv/installed-requirements.txt     # copied last: an interrupted attempt leaves none
-if [ -x .venv/bin/python ] && cmp -s requirements.txt "$stamp"; then
+venv=${VENV:-.venv}
+list=${REQUIREMENTS:-requirements.txt}
+stamp=$venv/installed-requirements.txt     # copied last: an interrupted attempt leaves none
+if [ -x "$venv/bin/python" ] && cmp -s "$list" "$stamp"; then
   exit 0
 fi
 
@@ -21,15 +23,15 @@ if ! "$python" -c 'import venv, ensurepip' 2>/dev/null; then
 fi
 
 fetch() {
-  .venv/bin/python -m pip install --quiet --disable-pip-version-check --prefer-binary \
-    -r requirements.txt
+  "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --prefer-binary \
+    -r "$list"
 }
 
-echo "making .venv with the packages of requirements.txt"
-"$python" -m venv --clear .venv || exit 1
+echo "making $venv with the packages of $list"
+"$python" -m venv --clear "$venv" || exit 1
 if ! fetch; then
   echo "setup-venv: pip failed, trying once more"
   sleep 5
   fetch || { echo "setup-venv: the packages could not be installed."; exit 1; }
 fi
-cp requirements.txt "$stamp"
+cp "$list" "$stamp"

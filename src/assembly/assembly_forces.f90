@@ -133,13 +133,19 @@ contains
     real(wp), intent(in) :: x(:, :), u(:, :)
     real(wp), intent(out) :: angle
     integer, intent(out) :: element
-    real(wp) :: d(2), e(2), sine, cosine
+    real(wp) :: d(2), e(2), sine, cosine, size_d, size_e
     integer :: k
     angle = zero
     element = 0
     do k = 1, size(system%corner, 2)
       d = x(:, system%corner(3, k)) - x(:, system%corner(1, k))
       e = d + (u(:, system%corner(3, k)) - u(:, system%corner(1, k)))
+      ! Unit sizes first: the products of an unbounded motion would overflow.
+      size_d = maxval(abs(d))
+      size_e = maxval(abs(e))
+      if (.not. size_e > zero) cycle
+      d = d/size_d
+      e = e/size_e
       sine = d(1)*e(2) - d(2)*e(1)
       cosine = d(1)*e(1) + d(2)*e(2)
       if (abs(sine) <= angle*cosine) cycle

@@ -13,6 +13,8 @@ module deck_check
   public :: check_card, check_head
 
   integer, parameter :: head_id = 2
+  !> Squares and products of four numbers of this size stay far from overflow and underflow.
+  real(wp), parameter :: largest = 1.0e75_wp
 
 contains
 
@@ -219,6 +221,13 @@ contains
       if (.not. ok) then
         call deck%complain(record, trim(field%name), 'expected '//range_text(field)// &
             ', found "'//written//'"', number_hint(field, text))
+        return
+      end if
+      if (abs(value) > largest &
+          .or. (abs(value) > 0.0_wp .and. abs(value) < 1.0_wp/largest)) then
+        call deck%complain(record, trim(field%name), &
+            'expected 0 or a size between 1e-75 and '//'1e75, found "'//written//'"', &
+            'choose other units')
         return
       end if
     end if

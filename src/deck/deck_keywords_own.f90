@@ -14,7 +14,8 @@ contains
     call add_keyword(table, 'BIPACT_TIME', 'time scheme', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'SCHEME', 'W10 =THETA |THETA|NEWMARK|', 'time scheme')
-    call add_field(table, 'THETA', 'R10 =0.5 >=0.5 <=1', 'weight of the velocity at the end')
+    call add_field(table, 'THETA', 'R10 >=0.5 <=1', &
+        'weight of the velocity at the end; blank = 0.5, or no theta at all')
     call add_field(table, 'XI', 'R10 >=0.5 <=1', &
         'weight of the forces at the end; blank = THETA')
     call add_field(table, 'REST', 'R10 fixed')

@@ -7,6 +7,10 @@ module deck_number
   private
   public :: scan_integer, scan_real
 
+  !> Numbers beyond 10^+-300 become 10^+-300: no deck can use them, and the reader of the run-time
+  !> library would overflow.
+  integer, parameter :: far = 300
+
 contains
 
   !> [+-]digits, at most 2^31-1.
@@ -69,11 +73,16 @@ contains
     if (ok) ok = scan(text(1:mark - 1), '0123456789') > 0
     if (.not. ok) return
     scale = scale + exponent
-    if (digits <= 15 .and. abs(scale) <= 22) then
+    if (digits == 0) then
+      value = 0.0_wp
+    else if (digits <= 15 .and. abs(scale) <= 22) then
       value = real(mantissa, wp)
       if (scale >= 0) value = value*power(scale)
       if (scale < 0) value = value/power(-scale)
       if (text(1:1) == '-') value = -value
+    else if (abs(digits + scale) > far) then
+      value = sign(merge(10.0_wp**far, 10.0_wp**(-far), scale > 0), merge(-1.0_wp, 1.0_wp, &
+          text(1:1) == '-'))
     else
       call slow_real(text(1:mark - 1), exponent, value, ok)
     end if

@@ -67,7 +67,7 @@ module run_data
     integer :: factors = 0, analyses = 0, solves = 0
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
-    logical :: growth_warned = .false.
+    logical :: broken = .false.        !< NaN or infinity: nothing of the state is written any more
     character(:), allocatable :: folder
     logical :: quiet = .false.
     integer :: log_unit = -1

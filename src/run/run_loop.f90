@@ -202,7 +202,7 @@ contains
   end subroutine weigh_loads
 
   subroutine check_finite(run, status)
-    type(run_t), intent(in) :: run
+    type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     real(wp) :: total(2)
     integer :: i
@@ -211,6 +211,7 @@ contains
       total = total + run%state%du(:, i)
     end do
     if (abs(total(1) + total(2)) <= huge(one)) return
+    run%broken = .true.
     call fail(status, status_numerical, &
         'the displacements are no numbers any more (NaN or infinite)', &
         hint='check units, densities and the time step')
@@ -251,7 +252,8 @@ contains
     energies = energies_due(run%tables, run%state%time, h, last) .or. last
     if (run%model%controls%ledger_every > 0) &
         energies = energies .or. mod(run%state%cycle, run%model%controls%ledger_every) == 0
-    if (energies) call watch(run, status)
+    if (energies .and. .not. run%broken) call watch(run, status)
+    if (run%broken) return
     if (.not. (run%tables%any_on .and. last)) then
       if (.not. any_due(run%tables, run%state%time, h)) return
     end if
@@ -285,8 +287,9 @@ contains
           status_numerical, 'the energy ratio is '//to_text(run%ledger%ratio)// &
           ', beyond ENDENG of *CONTROL_TERMINATION', place=moment(run))
     end if
-    if (.not. abs(run%ledger%total) <= huge(one)) call fail(status, status_numerical, &
-        'the energy is no number any more (NaN or infinite)')
+    run%broken = .not. abs(run%ledger%total) <= huge(one)
+    if (run%broken) call fail(status, status_numerical, &
+        'the energy is no number any more (NaN or infinite)', place=moment(run))
     call run%timers%enter(phase_other)
   end subroutine watch
 

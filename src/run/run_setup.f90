@@ -3,7 +3,7 @@
 module run_setup
   use assembly_system, only: make_system, effective_matrix, stiffness_ratio
   use base_kinds, only: wp, zero
-  use base_status, only: status_t, failed, add_place
+  use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
   use contact_setup, only: make_contact, contact_nodes, find_candidates
   use deck_keywords, only: fill_table
@@ -54,6 +54,8 @@ contains
     if (run%plan%contact) then
       call make_contact(run%model, run%cone, run%contact)
       if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
+    else
+      allocate (run%contact%block(0), run%contact%pair(0))
     end if
     call make_system(run%model, massless, run%system, status)
     if (failed(status)) return
@@ -65,6 +67,8 @@ contains
     call run%scheme%start(run%model, run%system, run%state, status)
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
+    if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
+        'the initial energy is no finite number', hint='check units and initial velocities')
     call make_solver(run%solver_options, run%solver, status)
     allocate (run%b(2, run%system%n), run%x(2, run%system%n))
     run%x = zero
@@ -130,7 +134,6 @@ contains
     associate (stage => run%scheme%stage(1))
       call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_k, run%matrix)
     end associate
-    if (.not. run%plan%contact) allocate (run%contact%block(0), run%contact%pair(0))
     m = size(run%contact%block)
     if (again) then
       call run%solver%analyse(run%system%graph, run%contact%block, status)

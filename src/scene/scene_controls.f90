@@ -102,7 +102,7 @@ contains
       return
     end if
     controls%scheme = deck%word(r, 'SCHEME')
-    controls%theta = deck%real(r, 'THETA')
+    if (deck%is_given(r, 'THETA')) controls%theta = deck%real(r, 'THETA')
     controls%xi = controls%theta
     if (deck%is_given(r, 'XI')) controls%xi = deck%real(r, 'XI')
     if (controls%scheme /= 'NEWMARK') return
