@@ -1,5 +1,8 @@
 #!/usr/bin/env bash
-# Accuracy, processor time, memory and the split of a step for the two-bar impact: make bench
+# Accuracy, processor time, memory and the split of a step for the two-bar impact; speed of the
+# reader: make bench
 set -euo pipefail
 cd "$(dirname "$0")/.."
-exec .venv/bin/python bench/two_bars.py "$@"
+.venv/bin/python bench/two_bars.py "$@"
+echo
+.venv/bin/python bench/reading.py

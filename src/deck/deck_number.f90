@@ -7,8 +7,8 @@ module deck_number
   private
   public :: scan_integer, scan_real
 
-  !> Numbers beyond 10^+-300 become 10^+-300: no deck can use them, and the reader of the run-time
-  !> library would overflow.
+  !> Numbers beyond 10^+-300 become 10^+-300: no deck can use them, and the run-time library
+  !> would overflow.
   integer, parameter :: far = 300
 
 contains

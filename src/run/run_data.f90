@@ -67,7 +67,7 @@ module run_data
     integer :: factors = 0, analyses = 0, solves = 0
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
-    logical :: broken = .false.        !< NaN or infinity: nothing of the state is written any more
+    logical :: broken = .false.        !< NaN or infinity: the state is not written
     character(:), allocatable :: folder
     logical :: quiet = .false.
     integer :: log_unit = -1

@@ -170,7 +170,7 @@ contains
     type(status_t), intent(inout) :: status
     acting = .false.
     run%force = zero
-    if (run%contact%n == 0) return
+    if (run%contact%n == 0 .or. size(run%contact%block) == 0) return
     call run%timers%enter(phase_contact)
     call build_w(run%contact)
     call solve_contact(run%contact, run%x_last, run%force, acting, status)

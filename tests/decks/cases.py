@@ -1,5 +1,6 @@
 """Deck cases against exact solutions. Every bound has its reason beside it."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
@@ -281,6 +282,9 @@ def commands():
     rows = table(folder, "glstat")
     at_most(abs(rows["time"][-1] - 0.04), 1.0e-17, "the cut step ends at ENDTIM")
     balance("cut step", folder, True)
+    lines, _ = two_blocks(gap=5.0)
+    folder, code, errors = run_text("cut2", deck(lines, 3.0e-4, 1.0e-3))
+    check(code == 0, "a cut step without contact: " + errors)
 
 
 def awkward():
@@ -304,12 +308,29 @@ def awkward():
         "padding zeros": base.replace("         4\n*INIT", "         4         0         0\n*INIT"),
         "title with commas": base.replace("a block in flight, the", "a, b,, c, the"),
         "keyword with remark": base.replace("*NODE\n", "*NODE (four of them)\n"),
+        "set in comma form": base.replace("         1         2         3         4\n*INIT",
+                                          "1, 2, 3\n4,\n*INIT"),
+        "set by a range": base.replace("*SET_NODE_LIST\n         1\n         1         2         3         4",
+                                       "*SET_NODE_LIST_GENERATE\n         1\n         1         2         3         9"),
+        "long deck with standard blocks": re.sub(r"(?m)^(\*(?!KEYWORD|PARAMETER|END)\w+)$", r"\1-",
+                                                 base).replace("*KEYWORD", "*KEYWORD LONG=Y memory=20m").replace(
+            "*PARAMETER\nRtend           0.01Rdt            1e-03",
+            "*PARAMETER\nRtend                               0.01Rdt                                1e-03"),
+        "explicit zeros for defaults": base.replace("       1.0\n*MAT", "       0.0\n*MAT"),
+        "words from a parameter": base.replace("1e-03\n", "1e-03Cscheme        theta\n", 1).replace(
+            "     THETA       0.5", "   &scheme       0.5"),
+        "numbers in any case": base.replace("1000.0       0.3", "1.0D+3       .3"),
+        "blank card for defaults": base.replace("*DATABASE_GLSTAT", "*BIPACT_CONTACT\n\n*DATABASE_GLSTAT"),
         "minus parameter": base.replace("Rtend           0.01", "Rtend          -0.01").replace(
             "     &tend", "    -&tend"),
     }
     plain, code, errors = run_text("plain", base)
     check(code == 0, errors)
     rows = table(plain, "glstat")
+    with open(os.path.join(scenes.TMP, "a_part_of_it.k"), "w") as out:
+        out.write("*NODE\n" + node + "*END\nnot read\n")
+    forms["include with a continued name"] = base.replace(
+        node, "*INCLUDE\na_part +\n_of_it.k\n*NODE\n")
     for name, text in forms.items():
         check(text != base, name + " changes the deck")
         folder, code, errors = run_text("awkward", text)
