@@ -64,13 +64,14 @@ SCENE = [
     ("LOAD_BODY_Y", [{"LCID": 1, "SF": 10.0}]),
     ("CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", [{"SURFA": 1, "SURFB": 2, "FS": "&mu"}]),
     ("CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE", [{"SURFA": -3, "SURFB": 1, "FS": "&mu"}, {"TBIRTH": 0.03}]),
+    ("RIGIDWALL_PLANAR", [{"NSID": 3}, {"XT": 2.2, "XH": 1.0, "FRIC": 0.1}]),
     ("BIPACT_PAIR", [{"CID": 1, "SIDE": "AUTO"}]),
     ("DATABASE_HISTORY_NODE", [{"ID1": 101}]),
     ("DATABASE_HISTORY_NODE_SET", [{"ID1": 2}]),
     ("DATABASE_HISTORY_SHELL", [{"ID1": 1}]),
     ("DATABASE_HISTORY_SHELL_SET", [{"ID1": 2}]),
 ] + [("DATABASE_" + name, [{"DT": 0.002}]) for name in
-     ("GLSTAT", "MATSUM", "NODOUT", "ELOUT", "RCFORC", "SLEOUT", "SPCFORC", "NCFORC")] + [
+     ("GLSTAT", "MATSUM", "NODOUT", "ELOUT", "RCFORC", "RWFORC", "SLEOUT", "SPCFORC", "NCFORC")] + [
     ("BIPACT_TIMING", [{"DT": 0.01}]),
 ]
 PARAMETERS = [("Rtend", "0.02"), ("Rdt", "0.0001"), ("Rv0", "1.0"), ("Rmu", "0.2"), ("Cscheme", "THETA")]

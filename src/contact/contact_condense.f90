@@ -7,6 +7,7 @@ module contact_condense
   use contact_surface, only: edge_tangent
   use contact_track, only: update_candidate
   use contact_types, only: contact_t, candidate_t
+  use contact_wall, only: update_wall_candidate
   implicit none
   private
   public :: block_outgrown, make_block, track_candidates, build_w, relative_motion, &
@@ -40,6 +41,7 @@ contains
       associate (c => contact%candidate(i), &
           obstacle => contact%pair(contact%candidate(i)%pair)%obstacle)
         taken([c%node, c%a, c%b]) = .true.
+        if (c%edge == 0) cycle
         do s = 1, 2
           next = obstacle%neighbour(s, c%edge)
           if (next == 0) cycle
@@ -67,7 +69,12 @@ contains
     do i = 1, contact%n
       associate (c => contact%candidate(i))
         was_valid = c%valid
-        call update_candidate(contact%pair(c%pair), x, u, c, changed)
+        if (contact%pair(c%pair)%is_wall) then
+          call update_wall_candidate(contact%pair(c%pair), x, u, c)
+          changed = .false.
+        else
+          call update_candidate(contact%pair(c%pair), x, u, c, changed)
+        end if
         if (t1 < contact%pair(c%pair)%birth .or. t1 > contact%pair(c%pair)%death) &
             c%valid = .false.
         if (changed .or. (c%valid .neqv. was_valid)) contact%w_is_current = .false.
@@ -162,7 +169,7 @@ contains
     integer, intent(out) :: row(3)
     real(wp), intent(out) :: weight(3), e(2)
     row = contact%block_row([c%node, c%a, c%b])
-    weight = [one, c%xi - one, -c%xi]
+    weight = [one, c%share*(c%xi - one), -c%share*c%xi]
     e = c%normal
     if (component == 2) e = edge_tangent(c%normal)
   end subroutine stencil
@@ -173,7 +180,7 @@ contains
     type(candidate_t), intent(in) :: c
     real(wp), intent(in) :: node(2), a(2), b(2)
     real(wp) :: motion(2), d(2)
-    d = (node - a) - c%xi*(b - a)
+    d = (node - c%share*a) - c%share*c%xi*(b - a)
     motion(1) = c%normal(1)*d(1) + c%normal(2)*d(2)
     motion(2) = c%normal(1)*d(2) - c%normal(2)*d(1)
   end function relative_motion
@@ -189,8 +196,8 @@ contains
     associate (s => contact%block_row(c%node), a => contact%block_row(c%a), &
         b => contact%block_row(c%b))
       f(:, s) = f(:, s) + force
-      f(:, a) = f(:, a) - (one - c%xi)*force
-      f(:, b) = f(:, b) - c%xi*force
+      f(:, a) = f(:, a) - c%share*(one - c%xi)*force
+      f(:, b) = f(:, b) - c%share*c%xi*force
     end associate
   end subroutine spread_force
 
@@ -206,8 +213,8 @@ contains
         if (.not. c%r(1) > zero) cycle
         force = factor*(c%normal*c%r(1) + edge_tangent(c%normal)*c%r(2))
         f(:, c%node) = f(:, c%node) - force
-        f(:, c%a) = f(:, c%a) + (one - c%xi)*force
-        f(:, c%b) = f(:, c%b) + c%xi*force
+        f(:, c%a) = f(:, c%a) + c%share*(one - c%xi)*force
+        f(:, c%b) = f(:, c%b) + c%share*c%xi*force
       end associate
     end do
   end subroutine subtract_contact_force

@@ -3,12 +3,13 @@
 !> while the bodies have moved less than that distance relative to each other, nobody needs to
 !> search.
 module contact_search
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
   use base_strings, only: to_text
   use contact_surface, only: surface_t, facing, edge_tangent
   use contact_track, only: gap_to_edge, place_on_edge, end_tolerance, update_candidate
   use contact_types, only: contact_t, pair_t, candidate_t
+  use contact_wall, only: wall_distance, wall_candidate, check_wall
   use model_data, only: model_t
   implicit none
   private
@@ -42,11 +43,12 @@ contains
     real(wp) :: d(2)
     integer :: k
     mean = zero
+    spread = zero
+    if (size(node) == 0) return    ! a wall does not move
     do k = 1, size(node)
       mean = mean + (u(:, node(k)) - reference(:, k))
     end do
     mean = mean/real(size(node), wp)
-    spread = zero
     do k = 1, size(node)
       d = u(:, node(k)) - reference(:, k) - mean
       spread = max(spread, d(1)**2 + d(2)**2)
@@ -71,6 +73,10 @@ contains
     integer :: k
     contact%searches = contact%searches + 1
     contact%searched = p
+    if (contact%pair(p)%is_wall) then
+      call search_wall(model, contact, p, u, du, v, h, cycle, status)
+      return
+    end if
     associate (pair => contact%pair(p))
       reach = listing_distance(pair, du, v, h)
       call obstacle_box(model, pair, u, low, high)
@@ -96,6 +102,39 @@ contains
       pair%obstacle_reference = u(:, pair%obstacle%node)
     end associate
   end subroutine search_pair
+
+  !> The same for a wall: the nodes nearer than half an edge, or four steps of their motion.
+  subroutine search_wall(model, contact, p, u, du, v, h, cycle, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    integer, intent(in) :: p
+    real(wp), intent(in) :: u(:, :), du(:, :), v(:, :), h
+    integer, intent(in) :: cycle
+    type(status_t), intent(inout) :: status
+    type(candidate_t) :: c
+    real(wp) :: reach, gap
+    integer :: k
+    associate (pair => contact%pair(p))
+      reach = listing_distance(pair, du, v, h)
+      if (.not. reach > pair%contactor%mean_length) reach = half*reach
+      pair%safe_distance = huge(one)
+      pair%moved = zero
+      do k = 1, size(pair%contactor%node)
+        gap = wall_distance(pair, model%x, u, pair%contactor%node(k))
+        if (.not. listed(contact, pair%contactor%node(k))) &
+            call check_wall(model, contact, pair, pair%contactor%node(k), gap, cycle, status)
+        if (failed(status)) return
+        if (gap <= reach) then
+          c = wall_candidate(pair, p, pair%contactor%node(k))
+          call keep_candidate(contact, c)
+        else
+          pair%safe_distance = min(pair%safe_distance, gap)
+        end if
+      end do
+      pair%contactor_reference = u(:, pair%contactor%node)
+      pair%obstacle_reference = u(:, pair%obstacle%node)
+    end associate
+  end subroutine search_wall
 
   !> Nodes nearer than this go on the list: a mean edge, or four steps of the relative motion.
   pure real(wp) function listing_distance(pair, du, v, h)

@@ -8,6 +8,7 @@ module contact_setup
   use contact_search, only: test_sleep, search_pair
   use contact_surface, only: make_surface, surface_t
   use contact_types, only: contact_t, pair_t, no_gap
+  use contact_wall, only: make_wall, mark_wall_nodes
   use model_data, only: model_t, segment_owner
   implicit none
   private
@@ -25,7 +26,8 @@ contains
     integer :: p, s
     contact%cone = cone
     contact%penetration_tolerance = model%controls%penetration_tolerance
-    allocate (contact%pair(size(model%contact)), contact%candidate(64), contact%before(64))
+    allocate (contact%pair(size(model%contact) + size(model%wall)))
+    allocate (contact%candidate(64), contact%before(64))
     allocate (contact%block(0), contact%block_row(model%nodes))
     contact%block_row = 0
     contact%d = 1
@@ -36,6 +38,7 @@ contains
       end do
       associate (pair => contact%pair(p))
         pair%id = model%contact(p)%id
+        pair%record = model%contact(p)%record
         pair%mu = model%contact(p)%mu
         pair%birth = model%contact(p)%birth
         pair%death = model%contact(p)%death
@@ -46,6 +49,10 @@ contains
         pair%obstacle = side(3 - s)
         if (model%requests%ncforc > zero) call make_nodal(model, pair)
       end associate
+    end do
+    do p = 1, size(model%wall)
+      if (model%wall(p)%mu > zero) contact%d = 2
+      call make_wall(model, model%wall(p), contact%pair(size(model%contact) + p))
     end do
   end subroutine make_contact
 
@@ -150,8 +157,12 @@ contains
     integer :: p, k
     taken = .false.
     do p = 1, size(contact%pair)
-      call mark_facing(model, contact%pair(p)%contactor, contact%pair(p)%obstacle, taken)
-      call mark_facing(model, contact%pair(p)%obstacle, contact%pair(p)%contactor, taken)
+      if (contact%pair(p)%is_wall) then
+        call mark_wall_nodes(contact%pair(p), taken)
+      else
+        call mark_facing(model, contact%pair(p)%contactor, contact%pair(p)%obstacle, taken)
+        call mark_facing(model, contact%pair(p)%obstacle, contact%pair(p)%contactor, taken)
+      end if
     end do
     list = pack([(k, k=1, model%nodes)], taken)
   end subroutine contact_nodes

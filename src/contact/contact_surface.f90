@@ -5,7 +5,7 @@ module contact_surface
   use base_kinds, only: wp, zero
   use base_sort, only: sort_order
   use model_data, only: model_t, corner_count, side_part_set, side_node_set, side_part, &
-      side_segment_set
+      side_segment_set, side_all_nodes
   implicit none
   private
 
@@ -39,7 +39,7 @@ contains
     integer, allocatable :: edge(:, :)
     integer :: k
     allocate (part_in(size(model%part)), node_in(model%nodes))
-    part_in = kind == side_node_set .or. kind == side_segment_set
+    part_in = kind == side_node_set .or. kind == side_segment_set .or. kind == side_all_nodes
     if (kind == side_part_set) part_in(model%part_set(row)%member) = .true.
     if (kind == side_part) part_in(row) = .true.
     call exposed_edges(model, part_in, edge)
@@ -56,6 +56,7 @@ contains
       node_in(edge(:, k)) = .true.
     end do
     if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.
+    if (kind == side_all_nodes) node_in = .true.
     surface%node = pack([(k, k=1, model%nodes)], node_in)
     surface%end_node = edge
     call measure_edges(model, surface)

@@ -25,11 +25,15 @@ module contact_types
   !> One contact card: the contactor's nodes against the obstacle's edges.
   type, public :: pair_t
     integer :: id = 0
+    integer :: record = 0                  !< its card, for messages
     integer :: contactor_side = 1          !< 1 = SURFA is the contactor, 2 = SURFB
     real(wp) :: mu = zero
     real(wp) :: birth = zero, death = huge(1.0_wp)
     type(surface_t) :: contactor
     type(surface_t) :: obstacle
+    logical :: is_wall = .false.           !< the obstacle is a rigid plane
+    real(wp) :: wall_point(2) = zero       !< on it [L]
+    real(wp) :: wall_normal(2) = zero      !< toward the bodies
     !> Search: displacements when it was last done, and the smallest distance of a node that is
     !> not on the list. No such node can touch while the bodies have moved less than that.
     real(wp), allocatable :: contactor_reference(:, :), obstacle_reference(:, :)
@@ -55,6 +59,7 @@ module contact_types
     integer :: edge = 0
     integer :: a = 0, b = 0        !< nodes of the edge
     real(wp) :: xi = zero          !< place on the edge, 0 at a, 1 at b
+    real(wp) :: share = 1.0_wp     !< of the edge in the relative motion: 1; 0 at a wall
     real(wp) :: normal(2) = zero
     real(wp) :: length = zero      !< of the edge [L]
     real(wp) :: gap = zero         !< at the start of the step [L]

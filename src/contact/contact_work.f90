@@ -87,7 +87,7 @@ contains
     integer :: k, at, node(3)
     if (.not. c%valid) return
     node = [c%node, c%a, c%b]
-    share = [1.0_wp, 1.0_wp - c%xi, c%xi]
+    share = [1.0_wp, c%share*(1.0_wp - c%xi), c%share*c%xi]
     force = c%normal*c%r(1) + edge_tangent(c%normal)*c%r(2)
     do k = 1, 3
       at = nodal%place(node(k), merge(1, 2, k == 1))

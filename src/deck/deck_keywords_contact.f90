@@ -15,6 +15,7 @@ contains
         'contact of two bodies; the side with the shorter edges gives the nodes')
     call add_contact(table, 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
         'contact of the nodes of SURFA with the edges of SURFB')
+    call add_wall(table)
   end subroutine add_contact_keywords
 
   subroutine add_contact(table, name, help)
@@ -53,11 +54,35 @@ contains
     call add_field(table, 'TDPEN', 'R10 note')
   end subroutine add_contact
 
+  subroutine add_wall(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'RIGIDWALL_PLANAR', 'a rigid plane that does not move', &
+        id=.true., required=2)
+    call add_card(table)
+    call add_field(table, 'NSID', 'I10 =0 >=0', 'node set in front of the wall; 0 = all nodes')
+    call add_field(table, 'NSIDEX', 'I10 fixed')
+    call add_field(table, 'BOXID', 'I10 fixed')
+    call add_field(table, 'OFFSET', 'R10 fixed', 'the node set says which nodes')
+    call add_field(table, 'BIRTH', 'R10 =0.0 [T]', 'the wall is there from this time')
+    call add_field(table, 'DEATH', 'R10 =1.0E20 0=d [T]', 'to this time')
+    call add_field(table, 'RWKSF', 'R10 note', 'of penalty methods')
+    call add_card(table)
+    call add_field(table, 'XT', 'R10 =0.0 [L]', 'a point T on the wall')
+    call add_field(table, 'YT', 'R10 =0.0 [L]', 'the same')
+    call add_field(table, 'ZT', 'R10 ignored [L]')
+    call add_field(table, 'XH', 'R10 =0.0 [L]', 'a point H in front of it: the normal is TH')
+    call add_field(table, 'YH', 'R10 =0.0 [L]', 'the same')
+    call add_field(table, 'ZH', 'R10 ignored [L]')
+    call add_field(table, 'FRIC', 'R10 =0.0 >=0 <=1', &
+        'coefficient of friction mu; 1 = no sliding (mu = 1e6)')
+    call add_field(table, 'WVEL', 'R10 fixed', 'the wall does not move')
+  end subroutine add_wall
+
   !> Adds the requests for tables and their nodes and elements.
   subroutine add_output_keywords(table)
     type(table_t), intent(inout) :: table
-    character(7), parameter :: names(8) = ['GLSTAT ', 'MATSUM ', 'NODOUT ', 'ELOUT  ', &
-        'RCFORC ', 'SLEOUT ', 'SPCFORC', 'NCFORC ']
+    character(7), parameter :: names(9) = ['GLSTAT ', 'MATSUM ', 'NODOUT ', 'ELOUT  ', &
+        'RCFORC ', 'RWFORC ', 'SLEOUT ', 'SPCFORC', 'NCFORC ']
     integer :: k
     do k = 1, size(names)
       call add_keyword(table, 'DATABASE_'//trim(names(k)), 'table '//trim(names(k)), &

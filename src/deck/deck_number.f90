@@ -81,8 +81,8 @@ contains
       if (scale < 0) value = value/power(-scale)
       if (text(1:1) == '-') value = -value
     else if (abs(digits + scale) > far) then
-      value = sign(merge(10.0_wp**far, 10.0_wp**(-far), scale > 0), merge(-1.0_wp, 1.0_wp, &
-          text(1:1) == '-'))
+      value = sign(merge(10.0_wp**far, 10.0_wp**(-far), scale > 0), &
+          merge(-1.0_wp, 1.0_wp, text(1:1) == '-'))
     else
       call slow_real(text(1:mark - 1), exponent, value, ok)
     end if

@@ -74,7 +74,7 @@ module model_data
 
   !> What a side of a contact card is.
   integer, parameter, public :: side_part_set = 1, side_node_set = 2, side_part = 3, &
-      side_segment_set = 4
+      side_segment_set = 4, side_all_nodes = 5
 
   type, public :: contact_card_t
     integer :: id = 0
@@ -87,6 +87,18 @@ module model_data
     integer :: record = 0
   end type contact_card_t
 
+  !> A rigid plane in front of some nodes.
+  type, public :: wall_t
+    integer :: id = 0
+    integer :: node_set = 0         !< row; 0 = all nodes
+    real(wp) :: point(2) = 0.0_wp   !< on the plane [L]
+    real(wp) :: normal(2) = 0.0_wp  !< toward the bodies
+    real(wp) :: mu = 0.0_wp
+    real(wp) :: birth = 0.0_wp      !< [T]
+    real(wp) :: death = huge(1.0_wp)
+    integer :: record = 0
+  end type wall_t
+
   !> Which tables are asked for, and how often; 0 = off [T].
   type, public :: requests_t
     real(wp) :: glstat = 0.0_wp
@@ -94,6 +106,7 @@ module model_data
     real(wp) :: nodout = 0.0_wp
     real(wp) :: elout = 0.0_wp
     real(wp) :: rcforc = 0.0_wp
+    real(wp) :: rwforc = 0.0_wp
     real(wp) :: sleout = 0.0_wp
     real(wp) :: spcforc = 0.0_wp
     real(wp) :: ncforc = 0.0_wp
@@ -146,6 +159,7 @@ module model_data
     type(gravity_t), allocatable :: gravity(:)
     type(motion_t), allocatable :: motion(:)
     type(contact_card_t), allocatable :: contact(:)
+    type(wall_t), allocatable :: wall(:)
     type(requests_t) :: requests
     type(controls_t) :: controls
   end type model_t

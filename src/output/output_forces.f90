@@ -4,18 +4,18 @@ module output_forces
   use base_format, only: real_writer_t
   use base_kinds, only: wp, zero, half
   use base_status, only: status_t
-  use contact_types, only: contact_t, no_gap
+  use contact_types, only: contact_t, pair_t, no_gap
   use cone_types, only: certificate_t
   use model_data, only: model_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers
   implicit none
   private
-  public :: write_rcforc, write_sleout, write_ncforc, write_spcforc
+  public :: write_rcforc, write_rwforc, write_sleout, write_ncforc, write_spcforc
 
 contains
 
-  !> Sums of each side of each contact.
+  !> Sums of each side of each contact of bodies.
   subroutine write_rcforc(file, writer, contact, time, h, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
@@ -24,24 +24,49 @@ contains
     type(status_t), intent(inout) :: status
     integer :: p, s
     do p = 1, size(contact%pair)
-      associate (c => contact%pair(p))
-        do s = 1, 2
-          call begin_row(file, time, h, status)
-          call add_number(file, writer, time)
-          call add_count(file, c%id)
-          call add_count(file, s)
-          call add_numbers(file, writer, &
-              [c%force(:, s), zero, half*(c%force(:, s) + c%force_before(:, s)), zero, &
-              c%impulse(:, s), zero, c%normal_force, c%tangential_force])
-          call add_count(file, c%n_active)
-          call add_count(file, c%n_stick)
-          call add_count(file, c%n_slip)
-          call add_number(file, writer, c%smallest_gap)
-          call end_row(file)
-        end do
-      end associate
+      if (contact%pair(p)%is_wall) cycle
+      do s = 1, 2
+        call begin_row(file, time, h, status)
+        call add_number(file, writer, time)
+        call add_count(file, contact%pair(p)%id)
+        call add_count(file, s)
+        call add_sums(file, writer, contact%pair(p), s)
+      end do
     end do
   end subroutine write_rcforc
+
+  !> Sums of the forces on the bodies at each wall.
+  subroutine write_rwforc(file, writer, contact, time, h, status)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: time, h
+    type(status_t), intent(inout) :: status
+    integer :: p
+    do p = 1, size(contact%pair)
+      if (.not. contact%pair(p)%is_wall) cycle
+      call begin_row(file, time, h, status)
+      call add_number(file, writer, time)
+      call add_count(file, contact%pair(p)%id)
+      call add_sums(file, writer, contact%pair(p), 1)
+    end do
+  end subroutine write_rwforc
+
+  !> Force of the step, mean of two, impulse, magnitudes, counts, gap of one side; ends the row.
+  subroutine add_sums(file, writer, pair, side)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(pair_t), intent(in) :: pair
+    integer, intent(in) :: side
+    call add_numbers(file, writer, &
+        [pair%force(:, side), zero, half*(pair%force(:, side) + pair%force_before(:, side)), &
+        zero, pair%impulse(:, side), zero, pair%normal_force, pair%tangential_force])
+    call add_count(file, pair%n_active)
+    call add_count(file, pair%n_stick)
+    call add_count(file, pair%n_slip)
+    call add_number(file, writer, pair%smallest_gap)
+    call end_row(file)
+  end subroutine add_sums
 
   !> One row for the whole coupled problem (id 0), one per contact; the solver's figures are
   !> those of the coupled problem in every row.
@@ -53,6 +78,9 @@ contains
     type(status_t), intent(inout) :: status
     integer :: p
     do p = 0, size(contact%pair)
+      if (p > 0) then
+        if (contact%pair(p)%is_wall) cycle
+      end if
       call begin_row(file, time, h, status)
       call add_number(file, writer, time)
       if (p == 0) then
@@ -89,6 +117,7 @@ contains
     real(wp) :: pressure
     integer :: p, k
     do p = 1, size(contact%pair)
+      if (contact%pair(p)%is_wall) cycle
       associate (c => contact%pair(p)%nodal)
         do k = 1, size(c%node)
           if (c%gap(k) >= no_gap .and. .not. any(abs(c%before(:, k)) > zero)) cycle

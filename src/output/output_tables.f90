@@ -10,8 +10,8 @@ module output_tables
   private
   integer, parameter, public :: table_glstat = 1, table_matsum = 2, table_nodout = 3, &
       table_elout = 4, table_rcforc = 5, table_sleout = 6, table_spcforc = 7, &
-      table_ncforc = 8, table_timing = 9
-  integer, parameter :: table_count = 9
+      table_ncforc = 8, table_timing = 9, table_rwforc = 10
+  integer, parameter :: table_count = 10
 
   type, public :: tables_t
     type(table_file_t) :: file(table_count)
@@ -46,6 +46,8 @@ contains
           'time element part sxx syy szz sxy syz szx energy')
       call open_one(table_rcforc, 'rcforc', r%rcforc, 'time contact side fx fy fz fmx fmy '// &
           'fmz ix iy iz fn ft nactive nstick nslip gapmin')
+      call open_one(table_rwforc, 'rwforc', r%rwforc, 'time wall fx fy fz fmx fmy fmz '// &
+          'ix iy iz fn ft nactive nstick nslip gapmin')
       call open_one(table_sleout, 'sleout', r%sleout, &
           'time contact normalwork frictionwork '// &
           'solves sweeps eta error error2018 penetration')

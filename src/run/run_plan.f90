@@ -53,17 +53,15 @@ contains
   subroutine plan_contact(model, plan)
     type(model_t), intent(in) :: model
     type(plan_t), intent(inout) :: plan
-    logical :: friction
-    plan%contact = size(model%contact) > 0
-    friction = .false.
-    if (plan%contact) friction = any(model%contact%mu > zero)
+    real(wp) :: mu
+    plan%contact = size(model%contact) + size(model%wall) > 0
+    mu = maxval([zero, model%contact%mu, model%wall%mu])
     call add_feature(plan, 'contact', plan%contact, to_text(size(model%contact))// &
-        ' contact card(s)')
+        ' of bodies, '//to_text(size(model%wall))//' of walls')
     if (.not. plan%contact) then
       call add_feature(plan, 'friction', .false., 'no contact')
-    else if (friction) then
-      call add_feature(plan, 'friction', .true., 'mu = '// &
-          to_text(maxval(model%contact%mu))//' at most')
+    else if (mu > zero) then
+      call add_feature(plan, 'friction', .true., 'mu = '//to_text(mu)//' at most')
     else
       call add_feature(plan, 'friction', .false., &
           'mu = 0 in all pairs: scalar contact rows only')
@@ -83,6 +81,7 @@ contains
           ' elements, every '//to_text(r%elout))
       call add_feature(plan, 'spcforc', r%spcforc > zero, 'every '//to_text(r%spcforc))
       call add_feature(plan, 'ncforc', r%ncforc > zero, 'every '//to_text(r%ncforc))
+      call add_feature(plan, 'rwforc', r%rwforc > zero, 'every '//to_text(r%rwforc))
       call add_feature(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
       call add_feature(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
       call add_feature(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))

@@ -119,7 +119,7 @@ contains
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
         run%scheme%h, 0, run%scheme%h, new_block, status)
     if (failed(status)) &
-        call add_place(status, run%deck%place(run%model%contact(run%contact%searched)%record))
+        call add_place(status, run%deck%place(run%contact%pair(run%contact%searched)%record))
   end subroutine first_candidates
 
   !> Factor of the effective matrix, with the contact block last and its flexibility; again is

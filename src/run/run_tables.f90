@@ -2,11 +2,11 @@
 !> Rows that are due, from all parts of the run.
 module run_tables
   use base_status, only: status_t
-  use output_forces, only: write_rcforc, write_sleout, write_ncforc, write_spcforc
+  use output_forces, only: write_rcforc, write_rwforc, write_sleout, write_ncforc, write_spcforc
   use output_rows, only: write_glstat, write_matsum, write_nodout, write_elout, write_timing
   use output_table, only: row_is_due
   use output_tables, only: table_glstat, table_matsum, table_nodout, table_elout, &
-      table_rcforc, table_sleout, table_spcforc, table_ncforc, table_timing
+      table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing
   use run_data, only: run_t
   implicit none
   private
@@ -44,6 +44,8 @@ contains
         call write_elout(file, writer, model, run%system, state, h, status)
       case (table_rcforc)
         call write_rcforc(file, writer, run%contact, time, h, status)
+      case (table_rwforc)
+        call write_rwforc(file, writer, run%contact, time, h, status)
       case (table_sleout)
         call write_sleout(file, writer, run%contact, time, h, status)
       case (table_spcforc)

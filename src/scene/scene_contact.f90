@@ -5,12 +5,12 @@ module scene_contact
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note, add_warning
-  use model_data, only: model_t, contact_card_t, side_part_set, side_node_set, side_part, &
-      side_segment_set
-  use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
+  use model_data, only: model_t, contact_card_t, wall_t, side_part_set, side_node_set, &
+      side_part, side_segment_set
+  use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
-  public :: read_contacts
+  public :: read_contacts, read_walls
 
   character(40), parameter :: keyword(2) = [character(40) :: &
       'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE']
@@ -72,11 +72,7 @@ contains
     type(contact_card_t), intent(inout) :: card
     integer :: second
     card%record = record
-    card%id = number
-    if (record > 1) then
-      if (deck%record(record - 1)%card == 0 .and. deck%record(record - 1)%block &
-          == deck%record(record)%block) card%id = head_number(deck, record - 1, number)
-    end if
+    card%id = head_number(deck, record, number)
     if (index(deck%block(deck%record(record)%block)%written, '_NODE_TO_') > 0) &
         card%contactor = 1
     card%mu = deck%real(record, 'FS')
@@ -89,14 +85,16 @@ contains
     card%death = deck%real(second, 'TDEATH')
   end subroutine read_card
 
-  !> The id on a card of _ID; the number in the deck where it is blank.
+  !> The id on the card of _ID before a record; the number in the deck where there is none.
   integer function head_number(deck, record, number)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: record, number
     integer :: ios, id
-    associate (r => deck%record(record))
+    head_number = number
+    if (record == deck%block(deck%record(record)%block)%first) return
+    associate (r => deck%record(record - 1))
+      if (r%card /= 0) return
       associate (line => deck%file(deck%block(r%block)%file)%text(r%first:r%last))
-        head_number = number
         if (len_trim(line(1:min(10, len(line)))) == 0) return
         read (line(1:min(10, len(line))), *, iostat=ios) id
         if (ios == 0) head_number = id
@@ -206,5 +204,48 @@ contains
       end associate
     end do
   end subroutine warn_thickness
+
+  !> *RIGIDWALL_PLANAR; those without an id are numbered by their order.
+  subroutine read_walls(deck, model, maps)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    type(maps_t), intent(in) :: maps
+    type(id_map_t) :: map
+    integer, allocatable :: record(:)
+    integer :: k
+    call records_of(deck, 'RIGIDWALL_PLANAR', 1, record)
+    allocate (model%wall(size(record)))
+    do k = 1, size(record)
+      associate (wall => model%wall(k), r => record(k))
+        wall%record = r
+        wall%id = head_number(deck, r, k)
+        wall%birth = deck%real(r, 'BIRTH')
+        wall%death = deck%real(r, 'DEATH')
+        if (deck%integer(r, 'NSID') > 0) wall%node_set = find_or_complain(deck, maps%node_set, &
+            r, 'NSID', deck%integer(r, 'NSID'), 'node set')
+        if (deck%follow(r, 2) > 0) call read_plane(deck, deck%follow(r, 2), model%wall(k))
+      end associate
+    end do
+    call make_id_map(deck, 'wall', 'NSID', model%wall%id, record, map)
+  end subroutine read_walls
+
+  subroutine read_plane(deck, record, wall)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    type(wall_t), intent(inout) :: wall
+    real(wp), parameter :: no_sliding = 1.0e6_wp
+    real(wp) :: length
+    wall%point = [deck%real(record, 'XT'), deck%real(record, 'YT')]
+    wall%normal = [deck%real(record, 'XH'), deck%real(record, 'YH')] - wall%point
+    length = norm2(wall%normal)
+    if (.not. length > zero) then
+      call deck%complain(record, 'XH', 'expected a point H apart from T: the normal of the '// &
+          'wall points from T to H')
+      return
+    end if
+    wall%normal = wall%normal/length
+    wall%mu = deck%real(record, 'FRIC')
+    if (.not. wall%mu < 1.0_wp) wall%mu = no_sliding
+  end subroutine read_plane
 
 end module scene_contact

@@ -96,7 +96,8 @@ contains
     if (r == 0) then
       controls%scheme = 'NEWMARK'
       if (deck%next('CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 1, 0) > 0 &
-          .or. deck%next('CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', 1, 0) > 0) &
+          .or. deck%next('CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', 1, 0) > 0 &
+          .or. deck%next('RIGIDWALL_PLANAR', 1, 0) > 0) &
           call add_warning(deck%problems, 'no *BIPACT_TIME: the scheme is NEWMARK, which '// &
           'gains energy without bound on impact; choose SCHEME THETA')
       return

@@ -58,7 +58,7 @@ contains
     map%sorted = ids(map%row)
     map%consecutive = .true.
     do k = 1, size(ids)
-      if (map%sorted(k) /= map%sorted(1) + k - 1 .or. map%row(k) /= k) map%consecutive = .false.
+      if (map%sorted(k) - map%sorted(1) /= k - 1 .or. map%row(k) /= k) map%consecutive = .false.
       if (k == 1) cycle
       if (map%sorted(k) /= map%sorted(k - 1)) cycle
       call deck%complain(record(map%row(k)), field, what//' '//to_text(map%sorted(k))// &

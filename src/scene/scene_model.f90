@@ -8,7 +8,7 @@ module scene_model
   use deck_problems, only: full
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t
-  use scene_contact, only: read_contacts
+  use scene_contact, only: read_contacts, read_walls
   use scene_controls, only: read_controls, read_solver_options, note_keywords
   use scene_ids, only: maps_t
   use scene_loads, only: read_curves, read_loads
@@ -49,6 +49,7 @@ contains
       call read_motions(deck, model, maps)
       call read_initial_velocities(deck, model, maps)
       call read_contacts(deck, model, maps)
+      call read_walls(deck, model, maps)
       call read_requests(deck, model, maps)
     end if
     if (deck%problems%count > 0) call fail(status, status_deck, problem_count(deck)// &

@@ -24,6 +24,7 @@ contains
       call read_interval(deck, 'DATABASE_NODOUT', r%nodout)
       call read_interval(deck, 'DATABASE_ELOUT', r%elout)
       call read_interval(deck, 'DATABASE_RCFORC', r%rcforc)
+      call read_interval(deck, 'DATABASE_RWFORC', r%rwforc)
       call read_interval(deck, 'DATABASE_SLEOUT', r%sleout)
       call read_interval(deck, 'DATABASE_SPCFORC', r%spcforc)
       call read_interval(deck, 'DATABASE_NCFORC', r%ncforc)
@@ -42,7 +43,9 @@ contains
       call drop_empty(deck, 'ELOUT without *DATABASE_HISTORY_SHELL', &
           size(r%history_element) == 0, r%elout)
       call drop_empty(deck, 'RCFORC without contact', size(model%contact) == 0, r%rcforc)
-      call drop_empty(deck, 'SLEOUT without contact', size(model%contact) == 0, r%sleout)
+      call drop_empty(deck, 'RWFORC without *RIGIDWALL', size(model%wall) == 0, r%rwforc)
+      call drop_empty(deck, 'SLEOUT without contact', &
+          size(model%contact) + size(model%wall) == 0, r%sleout)
       call drop_empty(deck, 'NCFORC without contact', size(model%contact) == 0, r%ncforc)
       call drop_empty(deck, 'SPCFORC without supports', &
           .not. any(model%fixed) .and. size(model%motion) == 0, r%spcforc)

@@ -193,6 +193,11 @@ BLOCK_FAULTS = [
     ("pair with both sides", "*END", "*BIPACT_PAIR\n         1      BOTH\n*END"),
     ("pair twice", "*END", "*BIPACT_PAIR\n         1         A\n         1         B\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
+    ("wall without normal", "*END", "*RIGIDWALL_PLANAR\n\n       3.0                           3.0\n*END"),
+    ("wall in a body", "*END", "*RIGIDWALL_PLANAR\n\n       1.5                           0.0\n*END"),
+    ("wall of no nodes", "*END", "*RIGIDWALL_PLANAR\n        33\n       3.0\n*END"),
+    ("welding wall", "*END", "*RIGIDWALL_PLANAR\n\n       3.0                           0.0                           2.0\n*END"),
+    ("moving wall", "*END", "*RIGIDWALL_PLANAR_MOVING\n\n       3.0\n*END"),
     ("self contact", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE\n        11\n*END"),
 ]
 
