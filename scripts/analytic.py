@@ -355,6 +355,103 @@ def impact_of(meta, tend=None):
     return Impact(bars[0], bars[1], meta["gap"], tend)
 
 
+# ---------------------------------------------------------------- gravity, friction
+
+@dataclass(frozen=True)
+class BouncingBar:
+    """An elastic bar falls on a rigid wall under gravity and bounces for ever (Doyen, Ern &
+    Piperno 2011; here in closed form for the data where tf = 3 L/c).
+
+    At t = 0 it is without stress and at rest, its lower end at height h0 = g tf^2/2.  One period:
+    fall tf, contact 2 L/c, flight 2 tf, contact 2 L/c, rise tf; total energy rho g L h0 A."""
+    length: float = 10.0     # [L]
+    young: float = 900.0     # [F L-2]
+    density: float = 1.0     # [M L-3]
+    gravity: float = 10.0    # [L T-2]
+    area: float = 1.0        # [L2]
+    falls: float = 3.0       # tf c/L, a whole number
+
+    @property
+    def speed(self):
+        """c [L T-1]"""
+        return float(np.sqrt(self.young / self.density))
+
+    @property
+    def transit(self):
+        """L/c [T]"""
+        return self.length / self.speed
+
+    @property
+    def fall(self):
+        """tf [T]"""
+        return self.falls * self.transit
+
+    @property
+    def height(self):
+        """h0 [L]"""
+        return 0.5 * self.gravity * self.fall ** 2
+
+    @property
+    def period(self):
+        """4 tf + 4 L/c [T]"""
+        return 4.0 * self.fall + 4.0 * self.transit
+
+    @property
+    def energy(self):
+        """Kinetic energy at the touch [F L]"""
+        return self.density * self.gravity * self.length * self.height * self.area
+
+    def _phases(self, t):
+        """Time within the period and the times where its parts begin."""
+        t1 = self.fall
+        t2 = t1 + 2.0 * self.transit
+        t3 = t2 + 2.0 * self.fall
+        return np.mod(t, self.period), t1, t2, t3, t3 + 2.0 * self.transit
+
+    def bottom(self, t):
+        """Height of the lower end over the wall [L]."""
+        s, t1, t2, t3, t4 = self._phases(t)
+        g, c, speed = self.gravity, self.speed, self.gravity * self.fall
+        wave = np.mod(c * (s - t2), 2.0 * self.length)
+        flight = speed * (s - t2) - 0.5 * g * (s - t2) ** 2 \
+            - 2.0 * g / c ** 2 * (self.length * wave - 0.5 * wave ** 2)
+        rise = speed * (s - t4) - 0.5 * g * (s - t4) ** 2
+        return np.select([s < t1, s < t2, s < t3, s < t4],
+                         [self.height - 0.5 * g * s ** 2, 0.0 * s, flight, 0.0 * s], rise)
+
+    def force(self, t):
+        """Contact force [F]: rho c (vf + g (t - t1)) in the first contact, falling in the second."""
+        s, t1, t2, t3, t4 = self._phases(t)
+        unit = self.density * self.speed * self.area
+        speed = self.gravity * self.fall
+        return unit * np.select([s < t1, s < t2, s < t3, s < t4],
+                                [0.0 * s, speed + self.gravity * (s - t1), 0.0 * s,
+                                 speed + self.gravity * (t4 - s)], 0.0 * s)
+
+
+@dataclass(frozen=True)
+class SlidingBlock:
+    """A rigid block that slides on a plane at v0, friction mu, gravity g (Coulomb)."""
+    v0: float = 1.0        # [L T-1]
+    mu: float = 0.2
+    gravity: float = 10.0  # [L T-2]
+    mass: float = 1.0      # [M]
+
+    @property
+    def stop(self):
+        """Time when it stops, v0/(mu g) [T]"""
+        return self.v0 / (self.mu * self.gravity)
+
+    def place(self, t):
+        """Distance from the start [L]."""
+        s = np.minimum(t, self.stop)
+        return self.v0 * s - 0.5 * self.mu * self.gravity * s ** 2
+
+    def friction_work(self, t):
+        """mu m g times the distance [F L]"""
+        return self.mu * self.mass * self.gravity * self.place(t)
+
+
 # ---------------------------------------------------------------- command line
 
 def print_history(exact, rows):
