@@ -19,14 +19,16 @@ Q := $(if $(V),,@)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .DEFAULT_GOAL := all
-.PHONY: all demo test test-unit test-programs check-style doc deps venv debug sanitize fuzz bench \
+.PHONY: all demo test test-unit test-programs bench-programs check-style doc deps venv debug \
+        sanitize fuzz bench bench-features report stability \
         clean distclean help FORCE
 
 # ---------------------------------------------------------------- targets for people
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
-light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench clean distclean help
+light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench bench-features report \
+         stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
 all: $(BIN) ## build bin/bipact (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
@@ -57,9 +59,23 @@ fuzz: ## run N (20000) damaged decks; SEED=1
 	@BIPACT=$(BIN) $(PYTHON3) tests/fuzz/fuzz.py --count $(or $(N),20000) --seed $(or $(SEED),1) \
 	  --keep build/fuzz
 
-bench: ## measure speed and accuracy
-	+@$(again) all
+bench: ## measure speed and accuracy of the two-bar impact and of the reader
+	+@$(again) all bench-programs
 	@if [ -x bench/run_bench.sh ]; then bench/run_bench.sh; else echo "bench: nothing to run"; fi
+
+bench-features: ## what each feature costs absent, idle, active (instruction counts need valgrind)
+	+@$(again) all
+	@.venv/bin/python bench/features.py
+
+report: ## error against run time on exact scenes, to doc/report; QUICK=1: minutes, to build/report
+	+@$(again) venv
+	+@$(again) all
+	@.venv/bin/python bench/report.py $(if $(QUICK),--quick) $(if $(FRESH),--fresh)
+
+stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build
+	+@$(again) venv
+	+@$(again) all
+	@.venv/bin/python bench/stability.py $(if $(QUICK),--quick) $(if $(FRESH),--fresh)
 
 debug sanitize: ## build bin/bipact-debug or bin/bipact-sanitize
 	+@$(again) FLAVOUR=$@ all
@@ -112,8 +128,10 @@ version := $(B)/gen/base_version.f90
 sources := $(wildcard src/*/*.f90 src/*/*.F90) $(version)
 support := $(wildcard tests/support/*.f90)
 units := $(wildcard tests/unit/test_*.f90)
+benches := $(wildcard bench/*.f90)
 object = $(patsubst %,$(B)/obj/%.o,$(basename $(notdir $(1))))
 programs := $(patsubst tests/unit/%.f90,$(B)/tests/%,$(units))
+bench-programs := $(patsubst bench/%.f90,$(B)/bench/%,$(benches))
 
 # Replaces the target by its new text only if it differs, so that nothing is remade needlessly.
 refresh = if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
@@ -144,6 +162,11 @@ $(BIN): $(B)/obj/main.o $(LIB) $(B)/flags
 
 test-programs: $(programs)
 
+bench-programs: $(bench-programs)
+
+$(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(LIB) $(B)/flags
+	$(link)
+
 $(programs): $(B)/tests/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/flags
 	$(link)
 
@@ -167,7 +190,7 @@ $(B)/flags: FORCE
 
 # Scanned each time (milliseconds): only so a removed or renamed source is noticed.
 $(B)/deps.mk: $(version) FORCE
-	@awk -f scripts/mkdeps.awk $(sources) $(support) $(units) >$@.new
+	@awk -f scripts/mkdeps.awk $(sources) $(support) $(units) $(benches) >$@.new
 	@$(refresh)
 
 include $(B)/deps.mk

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""The two-bar impact, 100 elements a bar: error, energy, processor time, memory, split of a step.
+"""The two-bar impact, 100 elements a bar: error, energy, processor time, memory, split of a
+step.
 
 Processor time is user + system of the whole process, the median of several runs (machines are
 noisy: the smallest and largest are printed too); memory is the peak of the process. Phases are
 those of bipact.log, in microseconds a step.
 """
+
 import argparse
 import os
 import statistics
@@ -20,11 +22,21 @@ ROWS = [
     ("THETA consistent", dict(), (0.0,)),
     ("THETA dispersion, Courant 1", dict(mass="DISPERSION", courant=1.0), (0.0,)),
     ("THETA dispersion, Courant 1/2", dict(mass="DISPERSION", dt=5.0e-5), (0.0,)),
-    ("THETA dispersion, massless, 1e-5", dict(mass="DISPERSION", redist=1), (0.0, 0.25, 0.5, 0.75)),
-    ("THETA dispersion, massless, 5e-5", dict(mass="DISPERSION", redist=1, dt=5.0e-5),
-     (0.0, 0.25, 0.5, 0.75)),
-    ("the same, a row every step", dict(mass="DISPERSION", redist=1, dt=5.0e-5, output="step"),
-     (0.0, 0.25, 0.5, 0.75)),
+    (
+        "THETA dispersion, massless, 1e-5",
+        dict(mass="DISPERSION", redist=1),
+        (0.0, 0.25, 0.5, 0.75),
+    ),
+    (
+        "THETA dispersion, massless, 5e-5",
+        dict(mass="DISPERSION", redist=1, dt=5.0e-5),
+        (0.0, 0.25, 0.5, 0.75),
+    ),
+    (
+        "the same, a row every step",
+        dict(mass="DISPERSION", redist=1, dt=5.0e-5, output="step"),
+        (0.0, 0.25, 0.5, 0.75),
+    ),
     ("NEWMARK consistent", dict(scheme="NEWMARK"), (0.0,)),
 ]
 
@@ -62,8 +74,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=7, help="runs of each row (7)")
     a = parser.parse_args()
-    print("%-34s %9s %10s %9s  %-22s %s" % ("run", "err", "E_end/E0-1", "osc", "CPU s (min..max)",
-                                            "MiB"))
+    print(
+        "%-34s %9s %10s %9s  %-22s %s"
+        % ("run", "err", "E_end/E0-1", "osc", "CPU s (min..max)", "MiB")
+    )
     with tempfile.TemporaryDirectory() as scratch:
         for name, scene, touches in ROWS:
             found = []
@@ -75,9 +89,19 @@ def main():
             err = statistics.mean(f["err"] for f, _ in found)
             energy = min(f["dE_end"] for f, _ in found)
             times = found[-1][1]
-            print("%-34s %9.2e %10.1e %9.1e  %.3f (%.3f..%.3f)   %.1f" % (
-                name, err, energy, found[0][0]["osc"], statistics.median(times), times[0],
-                times[-1], peak_mebibytes(folder)))
+            print(
+                "%-34s %9.2e %10.1e %9.1e  %.3f (%.3f..%.3f)   %.1f"
+                % (
+                    name,
+                    err,
+                    energy,
+                    found[0][0]["osc"],
+                    statistics.median(times),
+                    times[0],
+                    times[-1],
+                    peak_mebibytes(folder),
+                )
+            )
             if name.startswith(("THETA consistent", "NEWMARK")):
                 split = phases(folder, meta["steps"])
                 print("    us a step: " + ", ".join("%s %.2f" % x for x in split.items()))

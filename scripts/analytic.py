@@ -12,6 +12,7 @@ Graff 1975, Wave Motion in Elastic Solids; Goldsmith 1960, Impact).
     Impact          any two bars, by characteristics: force, displacements, energies, fields
     unequal_lengths, staircase, interface, touch_time: closed forms
 """
+
 import argparse
 import bisect
 import sys
@@ -19,8 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-
 # ---------------------------------------------------------------- closed forms
+
 
 def touch_time(gap, v1, v2):
     """t1 = gap/(v1 - v2) [T] of two bodies that close a gap [L]; inf if they do not close."""
@@ -43,9 +44,14 @@ def unequal_lengths(length1, length2, speed, impedance, velocity):
     (Goldsmith 1960).  Until 2 L2/c the bars still touch, at zero force.
     """
     ratio = length1 / length2
-    return {"force": 0.5 * impedance * velocity, "duration": 2.0 * length1 / speed,
-            "v_cm1": 0.0, "v_cm2": velocity * ratio, "restitution": ratio,
-            "vibration_share": 1.0 - ratio}
+    return {
+        "force": 0.5 * impedance * velocity,
+        "duration": 2.0 * length1 / speed,
+        "v_cm1": 0.0,
+        "v_cm2": velocity * ratio,
+        "restitution": ratio,
+        "vibration_share": 1.0 - ratio,
+    }
 
 
 def staircase(z1, z2, velocity, k):
@@ -65,12 +71,13 @@ class TwoBars:
     data are ours for the paper's test: gap 0.02, v0 1.  bars = 1 is the left bar on a rigid
     wall at distance gap: t1 = gap/v0, half of the energy.  The bar lies on -L < x < 0.
     """
-    length: float = 10.0      # [L]
-    speed: float = 1000.0     # [L T-1]
-    density: float = 1.0e-3   # [M L-3]
-    area: float = 1.0         # [L2]
-    v0: float = 1.0           # [L T-1]
-    gap: float = 0.02         # [L]
+
+    length: float = 10.0  # [L]
+    speed: float = 1000.0  # [L T-1]
+    density: float = 1.0e-3  # [M L-3]
+    area: float = 1.0  # [L2]
+    v0: float = 1.0  # [L T-1]
+    gap: float = 0.02  # [L]
     bars: int = 2
 
     @property
@@ -86,7 +93,7 @@ class TwoBars:
     @property
     def energy(self):
         """Energy of all bars, rho L A v0^2/2 each [F L]"""
-        return 0.5 * self.bars * self.density * self.length * self.area * self.v0 ** 2
+        return 0.5 * self.bars * self.density * self.length * self.area * self.v0**2
 
     @property
     def impulse(self):
@@ -138,13 +145,15 @@ class TwoBars:
 
 # ---------------------------------------------------------------- characteristics
 
+
 @dataclass(frozen=True)
 class Bar:
     """A uniform bar without stress at uniform velocity."""
-    length: float      # [L]
-    speed: float       # [L T-1]
-    impedance: float   # [M T-1]
-    velocity: float    # [L T-1]
+
+    length: float  # [L]
+    speed: float  # [L T-1]
+    impedance: float  # [M T-1]
+    velocity: float  # [L T-1]
 
     @property
     def line_mass(self):
@@ -208,7 +217,8 @@ class Impact:
         span = np.diff(self.times)
         self._u1, self._u2, self._impulse = (
             np.concatenate(([0.0], np.cumsum(rate * span)))
-            for rate in (self.v1, self.v2, self.force_steps))
+            for rate in (self.v1, self.v2, self.force_steps)
+        )
 
     def _march(self):
         """March from event to event and keep the interface values."""
@@ -246,8 +256,10 @@ class Impact:
 
     def _next_event(self, t):
         """Time of the next returning change, at most the end."""
-        returns = [wave.next_change(t - bar.round_trip) + bar.round_trip
-                   for bar, wave in zip(self.bars, self.waves)]
+        returns = [
+            wave.next_change(t - bar.round_trip) + bar.round_trip
+            for bar, wave in zip(self.bars, self.waves)
+        ]
         return min(self.tend, *returns)
 
     # ---- results, for numbers or arrays of times [T]
@@ -297,13 +309,15 @@ class Impact:
     @property
     def energy(self):
         """Energy at the start, sum m v^2/2 [F L]"""
-        return sum(0.5 * bar.mass * bar.velocity ** 2 for bar in self.bars)
+        return sum(0.5 * bar.mass * bar.velocity**2 for bar in self.bars)
 
     def mean_velocities(self, t):
         """Velocities of the centres of mass [L T-1]: v_i -+ impulse/m_i."""
         bar1, bar2 = self.bars
-        return (bar1.velocity - self.impulse(t) / bar1.mass,
-                bar2.velocity + self.impulse(t) / bar2.mass)
+        return (
+            bar1.velocity - self.impulse(t) / bar1.mass,
+            bar2.velocity + self.impulse(t) / bar2.mass,
+        )
 
     def _leaving_and_returning(self, i, y, t):
         """The two waves of bar i at distance y from the contact end: the one that left the
@@ -324,8 +338,13 @@ class Impact:
         KE = rho A/8 int (a + b)^2 dy, SE = rho A/8 int (a - b)^2 dy."""
         bar, wave = self.bars[i], self.waves[i]
         change = np.array(wave.times[1:])
-        cuts = np.concatenate(([0.0, bar.length], bar.speed * (t - change),
-                               bar.speed * (change - t + bar.round_trip)))
+        cuts = np.concatenate(
+            (
+                [0.0, bar.length],
+                bar.speed * (t - change),
+                bar.speed * (change - t + bar.round_trip),
+            )
+        )
         cuts = np.unique(cuts[(cuts >= 0.0) & (cuts <= bar.length)])
         pairs = [self._leaving_and_returning(i, y, t) for y in 0.5 * (cuts[:-1] + cuts[1:])]
         a, b = np.array(pairs).T
@@ -334,8 +353,9 @@ class Impact:
 
     def energies(self, t):
         """Kinetic and strain energy of both bars [F L]."""
-        values = [np.add(self._bar_energies(0, s), self._bar_energies(1, s))
-                  for s in np.atleast_1d(t)]
+        values = [
+            np.add(self._bar_energies(0, s), self._bar_energies(1, s)) for s in np.atleast_1d(t)
+        ]
         kinetic, strain = np.array(values).T
         return (kinetic, strain) if np.ndim(t) else (kinetic[0], strain[0])
 
@@ -357,19 +377,22 @@ def impact_of(meta, tend=None):
 
 # ---------------------------------------------------------------- gravity, friction
 
+
 @dataclass(frozen=True)
 class BouncingBar:
     """An elastic bar falls on a rigid wall under gravity and bounces for ever (Doyen, Ern &
     Piperno 2011; here in closed form for the data where tf = 3 L/c).
 
-    At t = 0 it is without stress and at rest, its lower end at height h0 = g tf^2/2.  One period:
-    fall tf, contact 2 L/c, flight 2 tf, contact 2 L/c, rise tf; total energy rho g L h0 A."""
-    length: float = 10.0     # [L]
-    young: float = 900.0     # [F L-2]
-    density: float = 1.0     # [M L-3]
-    gravity: float = 10.0    # [L T-2]
-    area: float = 1.0        # [L2]
-    falls: float = 3.0       # tf c/L, a whole number
+    At t = 0 it is without stress and at rest, its lower end at height h0 = g tf^2/2.  One
+    period: fall tf, contact 2 L/c, flight 2 tf, contact 2 L/c, rise tf; total energy rho g L h0
+    A."""
+
+    length: float = 10.0  # [L]
+    young: float = 900.0  # [F L-2]
+    density: float = 1.0  # [M L-3]
+    gravity: float = 10.0  # [L T-2]
+    area: float = 1.0  # [L2]
+    falls: float = 3.0  # tf c/L, a whole number
 
     @property
     def speed(self):
@@ -389,7 +412,7 @@ class BouncingBar:
     @property
     def height(self):
         """h0 [L]"""
-        return 0.5 * self.gravity * self.fall ** 2
+        return 0.5 * self.gravity * self.fall**2
 
     @property
     def period(self):
@@ -413,29 +436,44 @@ class BouncingBar:
         s, t1, t2, t3, t4 = self._phases(t)
         g, c, speed = self.gravity, self.speed, self.gravity * self.fall
         wave = np.mod(c * (s - t2), 2.0 * self.length)
-        flight = speed * (s - t2) - 0.5 * g * (s - t2) ** 2 \
-            - 2.0 * g / c ** 2 * (self.length * wave - 0.5 * wave ** 2)
+        flight = (
+            speed * (s - t2)
+            - 0.5 * g * (s - t2) ** 2
+            - 2.0 * g / c**2 * (self.length * wave - 0.5 * wave**2)
+        )
         rise = speed * (s - t4) - 0.5 * g * (s - t4) ** 2
-        return np.select([s < t1, s < t2, s < t3, s < t4],
-                         [self.height - 0.5 * g * s ** 2, 0.0 * s, flight, 0.0 * s], rise)
+        return np.select(
+            [s < t1, s < t2, s < t3, s < t4],
+            [self.height - 0.5 * g * s**2, 0.0 * s, flight, 0.0 * s],
+            rise,
+        )
 
     def force(self, t):
-        """Contact force [F]: rho c (vf + g (t - t1)) in the first contact, falling in the second."""
+        """Contact force [F]: rho c (vf + g (t - t1)) in the first contact, falling in the
+        second."""
         s, t1, t2, t3, t4 = self._phases(t)
         unit = self.density * self.speed * self.area
         speed = self.gravity * self.fall
-        return unit * np.select([s < t1, s < t2, s < t3, s < t4],
-                                [0.0 * s, speed + self.gravity * (s - t1), 0.0 * s,
-                                 speed + self.gravity * (t4 - s)], 0.0 * s)
+        return unit * np.select(
+            [s < t1, s < t2, s < t3, s < t4],
+            [
+                0.0 * s,
+                speed + self.gravity * (s - t1),
+                0.0 * s,
+                speed + self.gravity * (t4 - s),
+            ],
+            0.0 * s,
+        )
 
 
 @dataclass(frozen=True)
 class SlidingBlock:
     """A rigid block that slides on a plane at v0, friction mu, gravity g (Coulomb)."""
-    v0: float = 1.0        # [L T-1]
+
+    v0: float = 1.0  # [L T-1]
     mu: float = 0.2
     gravity: float = 10.0  # [L T-2]
-    mass: float = 1.0      # [M]
+    mass: float = 1.0  # [M]
 
     @property
     def stop(self):
@@ -445,7 +483,7 @@ class SlidingBlock:
     def place(self, t):
         """Distance from the start [L]."""
         s = np.minimum(t, self.stop)
-        return self.v0 * s - 0.5 * self.mu * self.gravity * s ** 2
+        return self.v0 * s - 0.5 * self.mu * self.gravity * s**2
 
     def friction_work(self, t):
         """mu m g times the distance [F L]"""
@@ -454,11 +492,17 @@ class SlidingBlock:
 
 # ---------------------------------------------------------------- command line
 
+
 def print_history(exact, rows):
     """Table of the exact history at equal times."""
     t = np.linspace(0.0, exact.tend, rows)
-    columns = (t, *exact.displacement(t), exact.force(t), *exact.energies(t),
-               *exact.mean_velocities(t))
+    columns = (
+        t,
+        *exact.displacement(t),
+        exact.force(t),
+        *exact.energies(t),
+        *exact.mean_velocities(t),
+    )
     names = ("time", "u1", "u2", "force", "kinetic", "strain", "v_cm1", "v_cm2")
     print("#" + " ".join(n.rjust(14) for n in names))
     for row in zip(*columns):
@@ -467,13 +511,20 @@ def print_history(exact, rows):
 
 def main(argv=None):
     parser = argparse.ArgumentParser(
-        description="Print the exact history of the impact of two bars (1-D waves).")
+        description="Print the exact history of the impact of two bars (1-D waves)."
+    )
     for name, default, text in (
-            ("length", 10.0, "of bar 1 [L]"), ("length2", None, "of bar 2, default equal"),
-            ("speed", 1000.0, "wave speed of bar 1 [L T-1]"), ("speed2", None, "of bar 2"),
-            ("impedance", 1.0, "rho c A of bar 1 [M T-1]"), ("impedance2", None, "of bar 2"),
-            ("v1", 1.0, "velocity of bar 1 [L T-1]"), ("v2", -1.0, "velocity of bar 2"),
-            ("gap", 0.02, "[L]"), ("tend", 0.04, "end of the history [T]")):
+        ("length", 10.0, "of bar 1 [L]"),
+        ("length2", None, "of bar 2, default equal"),
+        ("speed", 1000.0, "wave speed of bar 1 [L T-1]"),
+        ("speed2", None, "of bar 2"),
+        ("impedance", 1.0, "rho c A of bar 1 [M T-1]"),
+        ("impedance2", None, "of bar 2"),
+        ("v1", 1.0, "velocity of bar 1 [L T-1]"),
+        ("v2", -1.0, "velocity of bar 2"),
+        ("gap", 0.02, "[L]"),
+        ("tend", 0.04, "end of the history [T]"),
+    ):
         parser.add_argument("--" + name, type=float, default=default, help=text)
     parser.add_argument("--rows", type=int, default=41, help="number of times (default 41)")
     a = parser.parse_args(argv)

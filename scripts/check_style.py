@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks the layout rules of the sources: check_style.py [ROOT].
 
-Prints one line per problem (file:line: message), then the procedure lengths; exit code 1 if there
-is a problem. It reads Fortran by statements, not by grammar: where it cannot tell, it says nothing.
-"""
+Prints one line per problem (file:line: message), then the procedure lengths; exit code 1 if
+there is a problem. It reads Fortran by statements, not by grammar: where it cannot tell, it
+says nothing."""
+
 import re
 import subprocess
 import sys
@@ -11,23 +12,28 @@ from pathlib import Path
 
 MAX_COLUMNS = 96
 MAX_FILE_LINES = 500
-MAX_PROCEDURE_LINES = 100       # code lines: neither blank nor comment
-MAY_SAVE = "base_signal.f90"    # a signal handler can reach nothing but a saved variable
+MAX_PROCEDURE_LINES = 100  # code lines: neither blank nor comment
+MAY_SAVE = "base_signal.f90"  # a signal handler can reach nothing but a saved variable
 MAY_STOP = "src/run/main.f90"
 UNTRACKED = {"build", "bin", ".venv", ".git", "__pycache__"}
-NO_FINAL_NEWLINE_NEEDED = {".k", ".tab"}    # decks may be malformed on purpose
+NO_FINAL_NEWLINE_NEEDED = {".k", ".tab"}  # decks may be malformed on purpose
 # Spelled so that this file does not hold what it looks for.
 ABSOLUTE_PATH = re.compile(r"(?<![\w.})\]*~-])/(?:work|home|root)/")
 
-TYPE = re.compile(r"^(?:integer|real|complex|logical|character|double\s+precision|"
-                  r"(?:type|class|procedure)\s*\()")
+TYPE = re.compile(
+    r"^(?:integer|real|complex|logical|character|double\s+precision|"
+    r"(?:type|class|procedure)\s*\()"
+)
 PROCEDURE = re.compile(
     r"^(?:(?:pure|elemental|impure|recursive|module|"
     r"(?:integer|real|complex|logical|character|double\s+precision|type|class)"
     r"\s*(?:\((?:[^()]|\([^()]*\))*\))?)\s+)*"
-    r"(?:subroutine|function)\s+(\w+)\s*(?:\(([^()]*)\))?")
-CLOSING = re.compile(r"^end\s*(?:(?:subroutine|function|module|program|interface|type)"
-                     r"(?:\s+\w+(?:\s*\(.*\))?)?)?$")
+    r"(?:subroutine|function)\s+(\w+)\s*(?:\(([^()]*)\))?"
+)
+CLOSING = re.compile(
+    r"^end\s*(?:(?:subroutine|function|module|program|interface|type)"
+    r"(?:\s+\w+(?:\s*\(.*\))?)?)?$"
+)
 STOP = re.compile(r"(?:^|\)\s*)(?:error\s*)?stop\b(?!\s*[=(%])")
 GOTO = re.compile(r"(?:^|\)\s*)go\s*to\s*[\d(]")
 COMMON = re.compile(r"^common\s*(?:/|\w)")
@@ -47,7 +53,7 @@ class Scope:
     def __init__(self, kind, name, line, dummies=()):
         self.kind, self.name, self.line = kind, name, line
         self.dummies = list(dummies)
-        self.declared = {}          # dummy: whether its declaration is complete
+        self.declared = {}  # dummy: whether its declaration is complete
         self.code_lines = 0
         self.contains = False
         self.statements = set()
@@ -60,14 +66,14 @@ def strip_line(line, quote):
     i = 0
     if quote:
         i = len(line) - len(line.lstrip())
-        i += line[i:i + 1] == "&"
+        i += line[i : i + 1] == "&"
     while i < len(line):
         c = line[i]
         if quote:
             if c == quote:
                 quote = None
                 code.append(c)
-            elif c == "&" and not line[i + 1:].strip():
+            elif c == "&" and not line[i + 1 :].strip():
                 return "".join(code) + "&", quote
         elif c == "!":
             break
@@ -80,7 +86,8 @@ def strip_line(line, quote):
 
 
 def read_statements(lines):
-    """Yields (first line, number of code lines, text) of each statement, continuations joined."""
+    """Yields (first line, number of code lines, text) of each statement, continuations
+    joined."""
     text, first, quote, count = "", 0, None, 0
     for number, line in enumerate(lines, 1):
         if line.startswith("#"):
@@ -117,7 +124,7 @@ def split_list(text):
 
 def has_doc(lines, number):
     """A block of comment lines ends right above the line, and one of it starts with !>."""
-    for line in reversed(lines[:number - 1]):
+    for line in reversed(lines[: number - 1]):
         if not line.lstrip().startswith("!"):
             return False
         if line.lstrip().startswith("!>"):
@@ -177,7 +184,7 @@ class Checker:
             if parent and parent.kind == "module":
                 parent.openings.setdefault(name, line)
             if parent and parent.kind == "interface" and len(self.stack) > 1:
-                self.stack[-2].declared[name] = True    # a dummy declared by its interface
+                self.stack[-2].declared[name] = True  # a dummy declared by its interface
             kind = "body" if parent and parent.kind == "interface" else "procedure"
             return Scope(kind, name, line, re.findall(r"\w+", dummies))
         found = re.match(r"^(module|program)\s+(\w+)$", text)
@@ -199,14 +206,19 @@ class Checker:
         public = re.match(r"^public\b\s*(?:::)?\s*(.+)$", text)
         if public and scope.kind == "module":
             scope.public.update(split_list(public.group(1)))
-        names = re.match(r"^(?:intent|value|pointer|external)\b.*?(?:::|\s)\s*([\w\s,]+)$", text)
+        names = re.match(
+            r"^(?:intent|value|pointer|external)\b.*?(?:::|\s)\s*([\w\s,]+)$", text
+        )
         if names:
             scope.declared.update(dict.fromkeys(re.findall(r"\w+", names.group(1)), True))
         if self.in_src and self.path.name != MAY_SAVE and scope.kind != "type":
             if re.match(r"^save\b(?!\s*[=(%])", text) or re.match(r"^data\s+\w[^=]*/", text):
                 self.say(line, "save and data are not allowed")
-        if not scope.contains and scope.kind in ("module", "program", "procedure", "body") \
-                and TYPE.match(text):
+        if (
+            not scope.contains
+            and scope.kind in ("module", "program", "procedure", "body")
+            and TYPE.match(text)
+        ):
             self.read_declaration(scope, line, text)
 
     def read_declaration(self, scope, line, text):
@@ -214,8 +226,12 @@ class Checker:
         if not separator:
             return
         attributes = [re.match(r"\w*", part).group() for part in split_list(head)]
-        complete = head.startswith("procedure") \
-            or {"intent", "value", "pointer", "external"} & set(attributes)
+        complete = head.startswith("procedure") or {
+            "intent",
+            "value",
+            "pointer",
+            "external",
+        } & set(attributes)
         entities = split_list(entities)
         for entity in entities:
             name = re.match(r"\w*", entity).group()
@@ -229,15 +245,20 @@ class Checker:
         elif scope.kind == "procedure":
             for entity in entities:
                 if "=" in re.sub(r"\((?:[^()]|\([^()]*\))*\)", "", entity):
-                    self.say(line, f"initialising {entity.split()[0]} here saves it between calls")
+                    self.say(
+                        line, f"initialising {entity.split()[0]} here saves it between calls"
+                    )
 
     def close(self, scope):
         if scope.kind in ("procedure", "program"):
             if scope.kind == "procedure" and self.in_src:
                 lengths.append(scope.code_lines)
             if scope.code_lines > MAX_PROCEDURE_LINES:
-                self.say(scope.line, f"{scope.name} has {scope.code_lines} lines of code, "
-                                     f"more than {MAX_PROCEDURE_LINES}")
+                self.say(
+                    scope.line,
+                    f"{scope.name} has {scope.code_lines} lines of code, "
+                    f"more than {MAX_PROCEDURE_LINES}",
+                )
         for dummy in scope.dummies:
             if not scope.declared.get(dummy, True):
                 self.say(scope.line, f"argument {dummy} of {scope.name} needs an intent")
@@ -266,8 +287,20 @@ def project_files(root):
     """Tracked files and those about to be; without git, all but what the build makes."""
     if (root / ".git").exists():
         names = subprocess.run(
-            ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-            capture_output=True, text=True, check=True).stdout.split("\0")
+            [
+                "git",
+                "-C",
+                str(root),
+                "ls-files",
+                "-z",
+                "--cached",
+                "--others",
+                "--exclude-standard",
+            ],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split("\0")
     else:
         names = (p.relative_to(root).as_posix() for p in root.rglob("*"))
     for name in sorted(set(names)):
@@ -280,7 +313,7 @@ def check_file(root, path):
     try:
         text = (root / path).read_bytes().decode()
     except UnicodeDecodeError:
-        return                      # not text
+        return  # not text
     if "\0" in text:
         return
     lines = text.removesuffix("\n").split("\n")
@@ -307,8 +340,10 @@ def main():
         print(f"{path}:{line}: {message}")
     if lengths:
         lengths.sort()
-        print(f"{len(lengths)} procedures, lines of code: median {lengths[len(lengths) // 2]}, "
-              f"95 % within {lengths[(len(lengths) * 95 - 1) // 100]}, longest {lengths[-1]}")
+        print(
+            f"{len(lengths)} procedures, lines of code: median {lengths[len(lengths) // 2]}, "
+            f"95 % within {lengths[(len(lengths) * 95 - 1) // 100]}, longest {lengths[-1]}"
+        )
     return 1 if problems else 0
 
 

@@ -22,6 +22,7 @@ half of the closing speed (wall: the speed).  A measure that the tables do not h
 Exit code: 0 all bounds of --check are met, 1 a bound is missed or the run did not end with
 'done', 2 the tables or the options cannot be used.
 """
+
 import argparse
 import json
 import os
@@ -33,14 +34,30 @@ import numpy as np
 from analytic import impact_of
 from tables import TableError, read_run
 
-ORDER = ("err", "e_u", "e_R", "e_R2", "impulse", "osc", "E_end", "dE_end", "E_max", "dE_max",
-         "residual", "momentum", "angular", "force_sum", "gapmin")
+ORDER = (
+    "err",
+    "e_u",
+    "e_R",
+    "e_R2",
+    "impulse",
+    "osc",
+    "E_end",
+    "dE_end",
+    "E_max",
+    "dE_max",
+    "residual",
+    "momentum",
+    "angular",
+    "force_sum",
+    "gapmin",
+)
 ONE_SIDED = re.compile(r"^(\w+)\s*(<=|>=|<|>)\s*(\S+)$")
 RANGE = re.compile(r"^(\w+)\s+in\s+(\S+?)\.\.(\S+)$")
 RELATIONS = {"<=": np.less_equal, ">=": np.greater_equal, "<": np.less, ">": np.greater}
 
 
 # ---------------------------------------------------------------- the scene
+
 
 def load_meta(path):
     """Data of the scene that make_bars.py --meta wrote."""
@@ -50,8 +67,12 @@ def load_meta(path):
 
 def bar_data(length, speed, density, area, velocity):
     """One bar as in the json of make_bars.py."""
-    return {"length": length, "speed": speed, "impedance": density * speed * area,
-            "velocity": velocity}
+    return {
+        "length": length,
+        "speed": speed,
+        "impedance": density * speed * area,
+        "velocity": velocity,
+    }
 
 
 def meta_of(case, length, speed, v0, gap, area, density, second=None, **more):
@@ -61,8 +82,17 @@ def meta_of(case, length, speed, v0, gap, area, density, second=None, **more):
     two.update({k: v for k, v in (second or {}).items() if v is not None})
     bars = [bar_data(length, speed, density, area, v0), bar_data(area=area, **two)]
     half_closing = v0 if case == "wall" else 0.5 * (v0 - two["velocity"])
-    meta = {"case": case, "bars": bars, "gap": gap, "v0": half_closing, "L": length,
-            "c": speed, "axis": [1.0, 0.0], "sides": [1, 2], "face1": None}
+    meta = {
+        "case": case,
+        "bars": bars,
+        "gap": gap,
+        "v0": half_closing,
+        "L": length,
+        "c": speed,
+        "axis": [1.0, 0.0],
+        "sides": [1, 2],
+        "face1": None,
+    }
     meta.update({k: v for k, v in more.items() if v is not None})
     return meta
 
@@ -148,6 +178,7 @@ class Run:
 
 # ---------------------------------------------------------------- measures
 
+
 def displacement_errors(run):
     """err and e_u, see the head of this file."""
     if run.nodout is None:
@@ -157,8 +188,10 @@ def displacement_errors(run):
     if not exact.any():
         return {}
     unit = run.meta["v0"] * 2.0 * run.meta["L"] / run.meta["c"]
-    return {"err": np.sqrt(np.sum((u - exact) ** 2) / np.sum(exact ** 2)),
-            "e_u": np.max(np.abs(u - exact)) / unit}
+    return {
+        "err": np.sqrt(np.sum((u - exact) ** 2) / np.sum(exact**2)),
+        "e_u": np.max(np.abs(u - exact)) / unit,
+    }
 
 
 def force_errors(run):
@@ -199,9 +232,9 @@ def oscillation(run):
         return {}
     exact = (run.exact.tip(t) - run.exact.tip(t - run.dt)) / run.dt
     if run.meta["case"] != "unequal":
-        exact = 0.0 * exact   # held end: free of the round-off of the difference
+        exact = 0.0 * exact  # held end: free of the round-off of the difference
     off = (vm - exact)[inside] / run.meta["v0"]
-    return {"osc": np.sqrt(np.mean(off ** 2))}
+    return {"osc": np.sqrt(np.mean(off**2))}
 
 
 def energy_measures(run):
@@ -213,8 +246,13 @@ def energy_measures(run):
     terms = ("external", "motion", "friction", "contact", "algorithmic", "damping", "total")
     unit = initial or max(np.max(np.abs(table[name])) for name in terms) or 1.0
     change = (total - initial) / unit
-    return {"E_end": total[-1] / unit, "E_max": total.max() / unit, "dE_end": change[-1],
-            "dE_max": change.max(), "residual": np.max(np.abs(table["residual"]))}
+    return {
+        "E_end": total[-1] / unit,
+        "E_max": total.max() / unit,
+        "dE_end": change[-1],
+        "dE_max": change.max(),
+        "residual": np.max(np.abs(table["residual"])),
+    }
 
 
 def momentum_measures(run):
@@ -224,11 +262,14 @@ def momentum_measures(run):
         return {}
     scale = run.exact.momentum_scale
 
-    def drift(*names):   # greatest change of a vector
+    def drift(*names):  # greatest change of a vector
         vectors = table.vectors(*names)
         return np.max(np.linalg.norm(vectors - vectors[0], axis=1))
-    return {"momentum": drift("momx", "momy", "momz") / scale,
-            "angular": drift("angx", "angy", "angz") / (scale * run.meta["L"])}
+
+    return {
+        "momentum": drift("momx", "momy", "momz") / scale,
+        "angular": drift("angx", "angy", "angz") / (scale * run.meta["L"]),
+    }
 
 
 def contact_measures(run):
@@ -248,14 +289,21 @@ def measure(directory, meta):
     'status' = done, failed, stopped or incomplete."""
     run = Run(directory, meta)
     result = dict.fromkeys(ORDER)
-    for part in (displacement_errors, force_errors, oscillation, energy_measures,
-                 momentum_measures, contact_measures):
+    for part in (
+        displacement_errors,
+        force_errors,
+        oscillation,
+        energy_measures,
+        momentum_measures,
+        contact_measures,
+    ):
         result.update({name: float(value) for name, value in part(run).items()})
     result["status"] = run.status
     return result
 
 
 # ---------------------------------------------------------------- bounds
+
 
 def parse_check(text):
     """(name, test, words) of 'NAME<=VALUE' or 'NAME in LO..HI'."""
@@ -289,6 +337,7 @@ def missed_bounds(result, checks):
 
 # ---------------------------------------------------------------- command line
 
+
 def numbers(text):
     """'a,b' as a list of numbers."""
     return [float(part) for part in text.split(",")]
@@ -302,24 +351,42 @@ def node_ids(text):
 def make_parser():
     """Command line."""
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Example: compare.py two_bars.out --meta two_bars.json --check 'err<=8.5e-3' "
-               "'E_end in 0.994..1.000001'")
+        "'E_end in 0.994..1.000001'",
+    )
     parser.add_argument("run", metavar="RUN_DIR", help="directory of the tables")
     parser.add_argument("--meta", metavar="FILE", help="scene, written by make_bars.py --meta")
-    parser.add_argument("--check", nargs="+", default=[], metavar="BOUND",
-                        help="NAME<=VALUE, NAME>=VALUE or 'NAME in LO..HI'")
+    parser.add_argument(
+        "--check",
+        nargs="+",
+        default=[],
+        metavar="BOUND",
+        help="NAME<=VALUE, NAME>=VALUE or 'NAME in LO..HI'",
+    )
     parser.add_argument("--axis", type=numbers, metavar="UX,UY", help="from bar 1 to bar 2")
-    parser.add_argument("--nodes", type=node_ids, metavar="ID,ID",
-                        help="contact-face nodes of bar 1 (default: found by the gap)")
+    parser.add_argument(
+        "--nodes",
+        type=node_ids,
+        metavar="ID,ID",
+        help="contact-face nodes of bar 1 (default: found by the gap)",
+    )
     scene = parser.add_argument_group("scene without --meta (defaults: the paper's, gap 0.02)")
     scene.add_argument("--case", choices=("two_bars", "wall", "unequal"), default="two_bars")
     for name, default, text in (
-            ("L", 10.0, "length of bar 1 [L]"), ("c", 1000.0, "wave speed [L T-1]"),
-            ("v0", 1.0, "velocity of bar 1; bar 2: -v0"), ("gap", 0.02, "[L]"),
-            ("height", 1.0, "[L]"), ("thickness", 1.0, "[L]"),
-            ("density", 1.0e-3, "[M L-3]"), ("L2", None, "bar 2 (as bar 1)"),
-            ("c2", None, ""), ("density2", None, ""), ("v2", None, "velocity of bar 2")):
+        ("L", 10.0, "length of bar 1 [L]"),
+        ("c", 1000.0, "wave speed [L T-1]"),
+        ("v0", 1.0, "velocity of bar 1; bar 2: -v0"),
+        ("gap", 0.02, "[L]"),
+        ("height", 1.0, "[L]"),
+        ("thickness", 1.0, "[L]"),
+        ("density", 1.0e-3, "[M L-3]"),
+        ("L2", None, "bar 2 (as bar 1)"),
+        ("c2", None, ""),
+        ("density2", None, ""),
+        ("v2", None, "velocity of bar 2"),
+    ):
         scene.add_argument("--" + name, type=float, default=default, help=text)
     return parser
 
@@ -331,8 +398,18 @@ def meta_of_arguments(a):
         meta.update({k: v for k, v in (("axis", a.axis), ("face1", a.nodes)) if v})
     else:
         second = dict(length=a.L2, speed=a.c2, density=a.density2, velocity=a.v2)
-        meta = meta_of(a.case, a.L, a.c, a.v0, a.gap, a.height * a.thickness, a.density, second,
-                       axis=a.axis, face1=a.nodes)
+        meta = meta_of(
+            a.case,
+            a.L,
+            a.c,
+            a.v0,
+            a.gap,
+            a.height * a.thickness,
+            a.density,
+            second,
+            axis=a.axis,
+            face1=a.nodes,
+        )
     length = np.hypot(*meta["axis"])
     meta["axis"] = [component / length for component in meta["axis"]]
     return meta

@@ -5,6 +5,7 @@ Needs bin/bipact and the decks input/two_bars/newmark.k, theta.k, theta_dispersi
 demo.out/NAME/ (the run directories) and demo.out/*.png: figures 1-4 of the paper and the
 contact force.  Exit code 1 if a run or a comparison fails.
 """
+
 import argparse
 import os
 import resource
@@ -13,8 +14,11 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DECKS = ("newmark", "theta", "theta_dispersion")
-MASS = {"newmark": ("Newmark", "consistent"), "theta": ("theta", "consistent"),
-        "theta_dispersion": ("theta", "dispersion")}
+MASS = {
+    "newmark": ("Newmark", "consistent"),
+    "theta": ("theta", "consistent"),
+    "theta_dispersion": ("theta", "dispersion"),
+}
 
 
 class DemoError(Exception):
@@ -34,11 +38,17 @@ def run_deck(program, deck, directory):
             raise DemoError("%s is missing" % shown(path))
     os.makedirs(directory, exist_ok=True)
     before = child_seconds()
-    done = subprocess.run([program, deck, "-o", directory, "--quiet"],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    done = subprocess.run(
+        [program, deck, "-o", directory, "--quiet"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     if done.returncode != 0:
-        raise DemoError("%s ended with exit code %d\n%s%s" % (
-            shown(deck), done.returncode, done.stdout, done.stderr))
+        raise DemoError(
+            "%s ended with exit code %d\n%s%s"
+            % (shown(deck), done.returncode, done.stdout, done.stderr)
+        )
     return child_seconds() - before
 
 
@@ -52,6 +62,7 @@ def run_all(a):
     """{name: (run, measures, CPU seconds)} of the decks."""
     from compare import Run, load_meta, measure
     from plot_history import paper_scene
+
     results = {}
     for name in DECKS:
         directory = os.path.join(a.out, name)
@@ -60,8 +71,10 @@ def run_all(a):
         meta = load_meta(beside) if os.path.exists(beside) else paper_scene()
         run, measures = Run(directory, meta), measure(directory, meta)
         if measures["status"] != "done" or measures["err"] is None:
-            raise DemoError("%s: the run is %s or lacks nodout rows of the contact face"
-                            % (shown(directory), measures["status"]))
+            raise DemoError(
+                "%s: the run is %s or lacks nodout rows of the contact face"
+                % (shown(directory), measures["status"])
+            )
         results[name] = run, measures, seconds
     return results
 
@@ -70,8 +83,10 @@ def print_table(results):
     """Small table of the results."""
     print("scheme   mass             dt        err    E_end/E0    E_max/E0   CPU s")
     for name, (run, m, seconds) in results.items():
-        print("%-8s %-10s %8.1e %10.2e %11.7f %11.7f %7.2f"
-              % (*MASS[name], run.dt, m["err"], m["E_end"], m["E_max"], seconds))
+        print(
+            "%-8s %-10s %8.1e %10.2e %11.7f %11.7f %7.2f"
+            % (*MASS[name], run.dt, m["err"], m["E_end"], m["E_max"], seconds)
+        )
 
 
 def findings(results):
@@ -86,41 +101,51 @@ def findings(results):
         "The total energy should be constant: greatest rise %.1g, change at the end %.2f %%."
         % (theta["dE_max"], 1e2 * theta["dE_end"]),
         "Consistent mass: the raw force alternates, its two-step mean shows the pulse. "
-        "Dispersion mass: the exact pulse (displacement error %.0e)." % exact["err"]]
+        "Dispersion mass: the exact pulse (displacement error %.0e)." % exact["err"],
+    ]
 
 
 def draw_all(results, out):
     """The figures: [(path, what to look for)]."""
     import plot_history as plot
+
     newmark, theta, dispersion = (results[name][0] for name in DECKS)
     text = findings(results)
 
-    def at(name):   # path of a figure
+    def at(name):  # path of a figure
         return os.path.join(out, name + ".png")
-    panels = {"theta scheme, consistent mass": theta,
-              "theta scheme, dispersion mass": dispersion}
+
+    panels = {
+        "theta scheme, consistent mass": theta,
+        "theta scheme, dispersion mass": dispersion,
+    }
     paths = [
         plot.displacement(newmark, at("figure1_displacement_newmark"), "Newmark", text[0]),
         plot.energies(newmark, at("figure2_energy_newmark"), "Newmark", text[1]),
         plot.displacement(theta, at("figure3_displacement_theta"), "theta scheme", text[2]),
         plot.energies(theta, at("figure4_energy_theta"), "theta scheme", text[3]),
-        plot.forces(panels, at("contact_force"), text[4])]
+        plot.forces(panels, at("contact_force"), text[4]),
+    ]
     return list(zip(paths, text))
 
 
 def main(argv=None):
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--bin", default=os.path.join(ROOT, "bin", "bipact"), help="program")
-    parser.add_argument("--decks", default=os.path.join(ROOT, "input", "two_bars"),
-                        help="directory of the decks")
+    parser.add_argument(
+        "--decks",
+        default=os.path.join(ROOT, "input", "two_bars"),
+        help="directory of the decks",
+    )
     parser.add_argument("--out", default=os.path.join(ROOT, "demo.out"), help="results")
     a = parser.parse_args(argv)
     try:
         results = run_all(a)
         print_table(results)
         figures = draw_all(results, a.out)
-    except Exception as problem:   # whatever fails, the demo fails with one clear message
+    except Exception as problem:  # whatever fails, the demo fails with one clear message
         print("demo failed: %s" % problem, file=sys.stderr)
         return 1
     print("\nFigures:")

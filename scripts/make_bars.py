@@ -17,6 +17,7 @@ written in comma form.  The scene is mirrored, then turned, then moved, then res
     meta = make_bars.write("bars.k", nx=50, mass="DISPERSION", courant=1.0)
     meta["touch"], meta["dt"], meta["steps"], meta["bars"][0]["speed"]
 """
+
 import argparse
 import json
 import math
@@ -27,28 +28,75 @@ from fractions import Fraction
 from types import SimpleNamespace
 
 DEFAULTS = dict(
-    nx=100, nx2=None, ny=1, ny2=None, length=10.0, length2=None, height=1.0, thickness=1.0,
-    young=1000.0, young2=None, density=1.0e-3, density2=None, poisson=0.0, plane_stress=False,
-    gap=0.02, v0=1.0, v1=None, v2=None, mu=0.0, courant=None, dt=None, tend=None, touch=None,
-    scheme="THETA", theta=0.5, xi=None, mass="CONSISTENT", redist=0, angle=0.0, mirror=None,
-    offset=(0.0, 0.0), slide=0.0, swap=False, renumber=None, random=None, scale_length=1.0,
-    scale_mass=1.0, scale_time=1.0, output=None, ledger_every=None, split=False,
-    tables=("glstat", "matsum", "nodout", "rcforc", "sleout"))
+    nx=100,
+    nx2=None,
+    ny=1,
+    ny2=None,
+    length=10.0,
+    length2=None,
+    height=1.0,
+    thickness=1.0,
+    young=1000.0,
+    young2=None,
+    density=1.0e-3,
+    density2=None,
+    poisson=0.0,
+    plane_stress=False,
+    gap=0.02,
+    v0=1.0,
+    v1=None,
+    v2=None,
+    mu=0.0,
+    courant=None,
+    dt=None,
+    tend=None,
+    touch=None,
+    scheme="THETA",
+    theta=0.5,
+    xi=None,
+    mass="CONSISTENT",
+    redist=0,
+    angle=0.0,
+    mirror=None,
+    offset=(0.0, 0.0),
+    slide=0.0,
+    swap=False,
+    renumber=None,
+    random=None,
+    scale_length=1.0,
+    scale_mass=1.0,
+    scale_time=1.0,
+    output=None,
+    ledger_every=None,
+    split=False,
+    tables=("glstat", "matsum", "nodout", "rcforc", "sleout"),
+)
 
-TABLES = ("glstat", "matsum", "nodout", "elout", "rcforc", "rwforc", "spcforc", "ncforc",
-          "sleout", "timing")
-SPACING = 1.0e-9   # a time is a whole number of steps when within this fraction of a step
+TABLES = (
+    "glstat",
+    "matsum",
+    "nodout",
+    "elout",
+    "rcforc",
+    "rwforc",
+    "spcforc",
+    "ncforc",
+    "sleout",
+    "timing",
+)
+SPACING = 1.0e-9  # a time is a whole number of steps when within this fraction of a step
 TEN, NODE, SHELL = (10,) * 8, (8, 16, 16, 16, 8, 8), (8,) * 10
 
 
 # ---------------------------------------------------------------- cards
+
 
 def text_of(value):
     """Shortest text that reads back equal; '' for a default."""
     if value is None:
         return ""
     if isinstance(value, float):
-        return repr(value + 0.0)   # no negative zero
+        return repr(value + 0.0)  # no negative zero
     return str(value)
 
 
@@ -73,10 +121,11 @@ def block(keyword, labels, *values):
 
 def listed(ids):
     """Cards of eight ids each."""
-    return [card(TEN, *ids[k:k + 8]) for k in range(0, len(ids), 8)]
+    return [card(TEN, *ids[k : k + 8]) for k in range(0, len(ids), 8)]
 
 
 # ---------------------------------------------------------------- data of the scene
+
 
 def exact(x):
     """The decimal number that a float is printed as, as a fraction."""
@@ -85,7 +134,7 @@ def exact(x):
 
 def bar_speed(o, young, density):
     """Speed of long waves in the bar [L T-1], see the head of this file."""
-    return math.sqrt(young / (density * (1.0 if o.plane_stress else 1.0 - o.poisson ** 2)))
+    return math.sqrt(young / (density * (1.0 if o.plane_stress else 1.0 - o.poisson**2)))
 
 
 def element_speed(o, young, density):
@@ -98,9 +147,26 @@ def element_speed(o, young, density):
 
 def check_positive(o):
     """Refuse sizes, materials and times that make no scene."""
-    for name in ("nx", "nx2", "ny", "ny2", "length", "length2", "height", "thickness", "young",
-                 "young2", "density", "density2", "dt", "tend", "courant", "scale_length",
-                 "scale_mass", "scale_time"):
+    for name in (
+        "nx",
+        "nx2",
+        "ny",
+        "ny2",
+        "length",
+        "length2",
+        "height",
+        "thickness",
+        "young",
+        "young2",
+        "density",
+        "density2",
+        "dt",
+        "tend",
+        "courant",
+        "scale_length",
+        "scale_mass",
+        "scale_time",
+    ):
         value = getattr(o, name)
         if value is not None and value <= 0:
             raise ValueError("%s must be positive" % name)
@@ -175,8 +241,16 @@ def fill_units(o):
     """Factors of a change of units: L [L], T [T], V velocity, E stress, R density, F force,
     W energy, Z impedance.  Powers of two leave every digit as it is."""
     a, b, s = float(o.scale_length), float(o.scale_mass), float(o.scale_time)
-    o.unit = {"L": a, "T": s, "V": a / s, "E": b / (a * s * s), "R": b / a ** 3,
-              "F": a * b / (s * s), "W": a * a * b / (s * s), "Z": b / s}
+    o.unit = {
+        "L": a,
+        "T": s,
+        "V": a / s,
+        "E": b / (a * s * s),
+        "R": b / a**3,
+        "F": a * b / (s * s),
+        "W": a * a * b / (s * s),
+        "Z": b / s,
+    }
 
 
 def resolve(options):
@@ -195,6 +269,7 @@ def resolve(options):
 
 # ---------------------------------------------------------------- mesh
 
+
 def spaced(start, length, n, shift):
     """n + 1 positions; inner ones are shifted by a random part of the spacing."""
     step = exact(length) / n
@@ -208,13 +283,19 @@ def grid_lines(o):
     source = random.Random(int(seed))
     lines = []
     for b in (0, 1):
-        def shift():   # random part of the spacing
+
+        def shift():  # random part of the spacing
             return float(amount) * (source.random() - 0.5)
+
         half = exact(o.gap) / 2
         x0 = -half - exact(o.lengths[b]) if b == 0 else half
         y0 = exact(o.slide) if b == 1 else Fraction(0)
-        lines.append((spaced(x0, o.lengths[b], o.nx_of[b], shift),
-                      spaced(y0, o.height, o.ny_of[b], shift)))
+        lines.append(
+            (
+                spaced(x0, o.lengths[b], o.nx_of[b], shift),
+                spaced(y0, o.height, o.ny_of[b], shift),
+            )
+        )
     return lines
 
 
@@ -250,11 +331,14 @@ def node_table(o):
     """Ordered {(bar, i, j): (id, x, y)}."""
     lines = grid_lines(o)
     order = (1, 0) if o.swap else (0, 1)
-    keys = [(b, i, j) for b in order for i in range(o.nx_of[b] + 1)
-            for j in range(o.ny_of[b] + 1)]
+    keys = [
+        (b, i, j) for b in order for i in range(o.nx_of[b] + 1) for j in range(o.ny_of[b] + 1)
+    ]
     ids = numbering(len(keys), o.renumber)
-    return {key: (n,) + place(o, lines[key[0]][0][key[1]], lines[key[0]][1][key[2]])
-            for key, n in zip(keys, ids)}
+    return {
+        key: (n,) + place(o, lines[key[0]][0][key[1]], lines[key[0]][1][key[2]])
+        for key, n in zip(keys, ids)
+    }
 
 
 def element_list(o, nodes):
@@ -275,12 +359,17 @@ def make_mesh(o):
     """Nodes, elements and node sets of the scene."""
     nodes = node_table(o)
 
-    def face(b, i):   # nodes of grid line i of bar b
+    def face(b, i):  # nodes of grid line i of bar b
         return [nodes[b, i, j][0] for j in range(o.ny_of[b] + 1)]
-    mesh = SimpleNamespace(nodes=list(nodes.values()), elements=element_list(o, nodes),
-                           face1=face(0, o.nx), face2=face(1, 0),
-                           ends=face(0, 0) + face(1, o.nx2))
-    if o.renumber is not None:   # lines in random order, too
+
+    mesh = SimpleNamespace(
+        nodes=list(nodes.values()),
+        elements=element_list(o, nodes),
+        face1=face(0, o.nx),
+        face2=face(1, 0),
+        ends=face(0, 0) + face(1, o.nx2),
+    )
+    if o.renumber is not None:  # lines in random order, too
         source = random.Random(o.renumber + 2)
         source.shuffle(mesh.nodes)
         source.shuffle(mesh.elements)
@@ -289,15 +378,18 @@ def make_mesh(o):
 
 # ---------------------------------------------------------------- deck
 
+
 def mesh_lines(o, mesh):
     """Nodes, elements and sets."""
     out = ["*NODE", names(NODE, *"nid x y z tc rc".split())]
     out += [card(NODE, n, x, y, 0.0) for n, x, y in mesh.nodes]
     out += ["*ELEMENT_SHELL", names(SHELL, *"eid pid n1 n2 n3 n4".split())]
     out += [card(SHELL, *element) for element in mesh.elements]
-    for sid, title, ids in ((1, "left bar, contact face", mesh.face1),
-                            (2, "right bar, contact face", mesh.face2),
-                            (3, "free ends", mesh.ends)):
+    for sid, title, ids in (
+        (1, "left bar, contact face", mesh.face1),
+        (2, "right bar, contact face", mesh.face2),
+        (3, "free ends", mesh.ends),
+    ):
         out += ["*SET_NODE_LIST_TITLE", title, names(TEN, "sid"), card(TEN, sid)]
         out += [names(TEN, *("nid%d" % k for k in range(1, 9)))] + listed(ids)
     return out
@@ -318,8 +410,9 @@ def parameter_lines(values):
     if not values:
         return []
     labels = [part + str(k + 1) for k in range(len(values)) for part in ("name", "value")]
-    pairs = "".join(("R" + name).ljust(10) + text_of(value).rjust(10)
-                    for name, value in values.items())
+    pairs = "".join(
+        ("R" + name).ljust(10) + text_of(value).rjust(10) for name, value in values.items()
+    )
     return ["*PARAMETER", names(TEN, *labels), pairs]
 
 
@@ -334,15 +427,29 @@ def named(o, name, value):
 def control_lines(o):
     """Time, scheme and mass; fields that the scheme does not use stay blank."""
     newmark = o.scheme == "NEWMARK"
-    out = block("*CONTROL_TERMINATION", "endtim endcyc dtmin endeng endmas",
-                named(o, "tend", o.tend * o.unit["T"]))
-    out += block("*CONTROL_IMPLICIT_GENERAL", "imflag dt0 imform nsbs igs cnstn form zero_v",
-                 1, named(o, "dt", o.dt * o.unit["T"]))
-    out += block("*CONTROL_IMPLICIT_DYNAMICS",
-                 "imass gamma beta tdybir tdydth tdybur irate alpha",
-                 1, *((0.5, 0.25) if newmark else ()))
-    out += block("*BIPACT_TIME", "scheme theta xi", o.scheme,
-                 *(() if newmark else (float(o.theta), None if o.xi is None else float(o.xi))))
+    out = block(
+        "*CONTROL_TERMINATION",
+        "endtim endcyc dtmin endeng endmas",
+        named(o, "tend", o.tend * o.unit["T"]),
+    )
+    out += block(
+        "*CONTROL_IMPLICIT_GENERAL",
+        "imflag dt0 imform nsbs igs cnstn form zero_v",
+        1,
+        named(o, "dt", o.dt * o.unit["T"]),
+    )
+    out += block(
+        "*CONTROL_IMPLICIT_DYNAMICS",
+        "imass gamma beta tdybir tdydth tdybur irate alpha",
+        1,
+        *((0.5, 0.25) if newmark else ())
+    )
+    out += block(
+        "*BIPACT_TIME",
+        "scheme theta xi",
+        o.scheme,
+        *(() if newmark else (float(o.theta), None if o.xi is None else float(o.xi)))
+    )
     out += block("*BIPACT_MASS", "type redist courant", o.mass, o.redist or None)
     if o.ledger_every is not None:
         out += block("*BIPACT_LEDGER", "every growth action", o.ledger_every)
@@ -353,16 +460,34 @@ def part_lines(o):
     """Parts, section and materials; one material if the bars are alike."""
     same = (o.young, o.density) == (o.young2, o.density2)
     labels = names(TEN, *"pid secid mid eosid hgid grav adpopt tmid".split())
-    out = ["*PART", "left bar", labels, card(TEN, 1, 1, 1),
-           "right bar", card(TEN, 2, 1, 1 if same else 2)]
-    out += block("*SECTION_SHELL", "secid elform shrf nip propt qr/irid icomp setyp",
-                 1, 12 if o.plane_stress else 13, None, 4)
+    out = [
+        "*PART",
+        "left bar",
+        labels,
+        card(TEN, 1, 1, 1),
+        "right bar",
+        card(TEN, 2, 1, 1 if same else 2),
+    ]
+    out += block(
+        "*SECTION_SHELL",
+        "secid elform shrf nip propt qr/irid icomp setyp",
+        1,
+        12 if o.plane_stress else 13,
+        None,
+        4,
+    )
     t = o.thickness * o.unit["L"]
     out += [names(TEN, *"t1 t2 t3 t4 nloc marea idof edgset".split()), card(TEN, t, t, t, t)]
     materials = [(1, o.density, o.young)] + ([] if same else [(2, o.density2, o.young2)])
     for mid, density, young in materials:
-        out += block("*MAT_ELASTIC", "mid ro e pr da db", mid, density * o.unit["R"],
-                     young * o.unit["E"], float(o.poisson))
+        out += block(
+            "*MAT_ELASTIC",
+            "mid ro e pr da db",
+            mid,
+            density * o.unit["R"],
+            young * o.unit["E"],
+            float(o.poisson),
+        )
     return out
 
 
@@ -370,8 +495,14 @@ def velocity_lines(o, part, speed):
     """Initial velocity of one part [L T-1]; the mandatory second card is blank."""
     vx, vy = (v * o.unit["V"] for v in turn(o, speed, 0.0))
     fields = (named(o, "v0", vx),) if vy == 0.0 else (vx, vy)
-    out = block("*INITIAL_VELOCITY_GENERATION", "id styp omega vx vy vz ivatn icid",
-                part, 2, None, *fields)
+    out = block(
+        "*INITIAL_VELOCITY_GENERATION",
+        "id styp omega vx vy vz ivatn icid",
+        part,
+        2,
+        None,
+        *fields
+    )
     return out + [names(TEN, *"xc yc zc nx ny nz phase irigid".split()), ""]
 
 
@@ -381,9 +512,15 @@ def contact_lines(o):
     for sid, part in ((11, 1), (12, 2)):
         out += block("*SET_PART_LIST", "sid", sid) + [names(TEN, "pid1"), card(TEN, part)]
     mu = named(o, "mu", float(o.mu))
-    out += block("*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE",
-                 "surfa surfb sfact freq fs fd dc", *((12, 11) if o.swap else (11, 12)),
-                 None, None, mu, mu)
+    out += block(
+        "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE",
+        "surfa surfb sfact freq fs fd dc",
+        *((12, 11) if o.swap else (11, 12)),
+        None,
+        None,
+        mu,
+        mu
+    )
     return out + [names(TEN, *"tbirth tdeath soa sob nda ndb cof init".split()), ""]
 
 
@@ -412,8 +549,12 @@ def output_lines(o, mesh):
 
 def main_lines(o, mesh, include):
     """The deck; with `include` the mesh is in that file."""
-    out = ["$ two elastic bars, written by make_bars.py", "*KEYWORD", "*TITLE",
-           "two-bar impact, %s scheme, %s mass" % (o.scheme, o.mass)]
+    out = [
+        "$ two elastic bars, written by make_bars.py",
+        "*KEYWORD",
+        "*TITLE",
+        "two-bar impact, %s scheme, %s mass" % (o.scheme, o.mass),
+    ]
     out += parameter_lines(parameters(o))
     out += ["*INCLUDE", include] if include else mesh_lines(o, mesh)
     out += control_lines(o) + part_lines(o)
@@ -425,16 +566,23 @@ def main_lines(o, mesh, include):
 
 # ---------------------------------------------------------------- what tests need to know
 
+
 def bar_data(o, b):
     """Bar b for the exact solution, in deck units; impedance Z = rho c A [M T-1]."""
     density = (o.density, o.density2)[b] * o.unit["R"]
     speed = o.speeds[b] * o.unit["V"]
     area = o.height * o.thickness * o.unit["L"] ** 2
-    return {"length": o.lengths[b] * o.unit["L"], "speed": speed, "density": density,
-            "young": (o.young, o.young2)[b] * o.unit["E"], "area": area,
-            "impedance": density * speed * area, "velocity": (o.v1, o.v2)[b] * o.unit["V"],
-            "elements": [o.nx_of[b], o.ny_of[b]],
-            "courant": o.dt * o.c_p[b] * o.nx_of[b] / o.lengths[b]}
+    return {
+        "length": o.lengths[b] * o.unit["L"],
+        "speed": speed,
+        "density": density,
+        "young": (o.young, o.young2)[b] * o.unit["E"],
+        "area": area,
+        "impedance": density * speed * area,
+        "velocity": (o.v1, o.v2)[b] * o.unit["V"],
+        "elements": [o.nx_of[b], o.ny_of[b]],
+        "courant": o.dt * o.c_p[b] * o.nx_of[b] / o.lengths[b],
+    }
 
 
 def scene_case(o):
@@ -446,22 +594,41 @@ def scene_case(o):
 def make_meta(o, mesh):
     """Data of the scene in deck units, as a dictionary that json can hold."""
     axis = turn(o, 1.0, 0.0)
-    meta = {"case": scene_case(o), "bars": [bar_data(o, 0), bar_data(o, 1)],
-            "gap": o.gap * o.unit["L"], "v0": 0.5 * (o.v1 - o.v2) * o.unit["V"],
-            "touch": o.touch_time * o.unit["T"], "dt": o.dt * o.unit["T"], "steps": o.steps,
-            "tend": o.tend * o.unit["T"], "output": interval(o, o.output),
-            "height": o.height * o.unit["L"], "thickness": o.thickness * o.unit["L"],
-            "poisson": o.poisson, "mu": o.mu, "angle": o.angle, "axis": list(axis),
-            "lateral": list(turn(o, 0.0, 1.0)), "sides": [2, 1] if o.swap else [1, 2],
-            "scheme": o.scheme, "theta": o.theta, "xi": o.theta if o.xi is None else o.xi,
-            "mass": o.mass, "redist": o.redist,
-            "scales": [o.scale_length, o.scale_mass, o.scale_time],
-            "face1": mesh.face1, "face2": mesh.face2, "free_ends": mesh.ends}
+    meta = {
+        "case": scene_case(o),
+        "bars": [bar_data(o, 0), bar_data(o, 1)],
+        "gap": o.gap * o.unit["L"],
+        "v0": 0.5 * (o.v1 - o.v2) * o.unit["V"],
+        "touch": o.touch_time * o.unit["T"],
+        "dt": o.dt * o.unit["T"],
+        "steps": o.steps,
+        "tend": o.tend * o.unit["T"],
+        "output": interval(o, o.output),
+        "height": o.height * o.unit["L"],
+        "thickness": o.thickness * o.unit["L"],
+        "poisson": o.poisson,
+        "mu": o.mu,
+        "angle": o.angle,
+        "axis": list(axis),
+        "lateral": list(turn(o, 0.0, 1.0)),
+        "sides": [2, 1] if o.swap else [1, 2],
+        "scheme": o.scheme,
+        "theta": o.theta,
+        "xi": o.theta if o.xi is None else o.xi,
+        "mass": o.mass,
+        "redist": o.redist,
+        "scales": [o.scale_length, o.scale_mass, o.scale_time],
+        "face1": mesh.face1,
+        "face2": mesh.face2,
+        "free_ends": mesh.ends,
+    }
     bar1, bar2 = meta["bars"]
     meta["c"], meta["L"], meta["Z"] = bar1["speed"], bar1["length"], bar1["impedance"]
     meta["release"] = meta["touch"] + 2.0 * meta["L"] / meta["c"]
-    meta["energy"] = sum(0.5 * b["impedance"] / b["speed"] * b["length"] * b["velocity"] ** 2
-                         for b in (bar1, bar2))
+    meta["energy"] = sum(
+        0.5 * b["impedance"] / b["speed"] * b["length"] * b["velocity"] ** 2
+        for b in (bar1, bar2)
+    )
     return meta
 
 
@@ -504,6 +671,7 @@ def write(path, meta_file=False, **options):
 
 # ---------------------------------------------------------------- command line
 
+
 def number_or_step(text):
     """A number, or the word 'step'."""
     return text if text == "step" else float(text)
@@ -543,13 +711,21 @@ def add_time_options(add):
     add("--courant", type=float, metavar="C", help="dt = C h_x/c of bar 1")
     add("--dt", type=float, help="[T] (1e-5)")
     add("--tend", type=float, help="[T] (0.04; other data: L/c after the release)")
-    add("--touch", type=float, metavar="F",
-        help="change the gap so that the touch is at fraction F of a step")
+    add(
+        "--touch",
+        type=float,
+        metavar="F",
+        help="change the gap so that the touch is at fraction F of a step",
+    )
     add("--scheme", type=str.upper, choices=("THETA", "NEWMARK"), help="(THETA)")
     add("--theta", type=float, help="(0.5)")
     add("--xi", type=float, help="(theta)")
-    add("--mass", type=str.upper, choices=("CONSISTENT", "LUMPED", "DISPERSION"),
-        help="(CONSISTENT)")
+    add(
+        "--mass",
+        type=str.upper,
+        choices=("CONSISTENT", "LUMPED", "DISPERSION"),
+        help="(CONSISTENT)",
+    )
     add("--redist", type=int, choices=(0, 1), help="1: massless contact nodes (0)")
 
 
@@ -561,8 +737,13 @@ def add_variant_options(add):
     add("--slide", type=float, metavar="S", help="move bar 2 across its axis by S [L]")
     add("--swap", action="store_true", help="bar 2 first: nodes, elements, velocity, contact")
     add("--renumber", type=int, metavar="SEED", help="random ids in random order")
-    add("--random", nargs=2, type=float, metavar=("R", "SEED"),
-        help="shift inner mesh lines by up to R/2 of the spacing, R < 1")
+    add(
+        "--random",
+        nargs=2,
+        type=float,
+        metavar=("R", "SEED"),
+        help="shift inner mesh lines by up to R/2 of the spacing, R < 1",
+    )
     add("--scale-length", type=float, metavar="A", help="change of units; use powers of two")
     add("--scale-mass", type=float, metavar="A", help="the same for masses")
     add("--scale-time", type=float, metavar="A", help="the same for times")
@@ -570,10 +751,18 @@ def add_variant_options(add):
 
 def add_output_options(add):
     """Options of tables and files."""
-    add("--output", type=number_or_step, metavar="DT",
-        help="interval of the tables [T], or the word step (L/c/100 = 1e-4)")
-    add("--tables", nargs="*", metavar="NAME[=DT]",
-        help="tables (glstat matsum nodout rcforc sleout); NAME=step or NAME=DT: own interval")
+    add(
+        "--output",
+        type=number_or_step,
+        metavar="DT",
+        help="interval of the tables [T], or the word step (L/c/100 = 1e-4)",
+    )
+    add(
+        "--tables",
+        nargs="*",
+        metavar="NAME[=DT]",
+        help="tables (glstat matsum nodout rcforc sleout); NAME=step or NAME=DT: own interval",
+    )
     add("--ledger-every", type=int, metavar="N", help="*BIPACT_LEDGER every N steps")
     add("--split", action="store_true", help="mesh in its own file FILE_mesh.k")
 
@@ -583,9 +772,14 @@ def parse_arguments(argv):
     parser = argparse.ArgumentParser(
         argument_default=argparse.SUPPRESS,
         description="Write a deck of two elastic bars that meet. Defaults in parentheses.",
-        epilog="Example: make_bars.py --mass DISPERSION --courant 1 --angle 37 --meta -o a.k")
-    for group, fill in (("scene", add_scene_options), ("time and scheme", add_time_options),
-                        ("variants", add_variant_options), ("output", add_output_options)):
+        epilog="Example: make_bars.py --mass DISPERSION --courant 1 --angle 37 --meta -o a.k",
+    )
+    for group, fill in (
+        ("scene", add_scene_options),
+        ("time and scheme", add_time_options),
+        ("variants", add_variant_options),
+        ("output", add_output_options),
+    ):
         fill(parser.add_argument_group(group).add_argument)
     parser.add_argument("-o", dest="path", metavar="FILE", help="deck (default: to stdout)")
     parser.add_argument("--meta", action="store_true", help="also write FILE's data as .json")
@@ -606,8 +800,10 @@ def main(argv=None):
     except (ValueError, OSError) as problem:
         print("make_bars.py: %s" % problem, file=sys.stderr)
         return 1
-    print("%s: dt %r, %d steps, touch at %r, contact faces %s and %s"
-          % (path, meta["dt"], meta["steps"], meta["touch"], meta["face1"], meta["face2"]))
+    print(
+        "%s: dt %r, %d steps, touch at %r, contact faces %s and %s"
+        % (path, meta["dt"], meta["steps"], meta["touch"], meta["face1"], meta["face2"])
+    )
     return 0
 
 

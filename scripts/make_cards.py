@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Write a deck that shows every keyword once: make_cards.py [-o FILE] [--bin bin/bipact].
 
-Columns, names and help come from `bipact --keywords`, so the deck cannot fall behind the table; the
-values, below, make a scene that runs: a block of quadrilaterals and triangles flies at a held base,
-with loads, a moved edge and every table. make doc writes it to input/cards/every_keyword.k.
-"""
+Columns, names and help come from `bipact --keywords`, so the deck cannot fall behind the table;
+the values, below, make a scene that runs: a block of quadrilaterals and triangles flies at a
+held base, with loads, a moved edge and every table. make doc writes it to
+input/cards/every_keyword.k. """
+
 import argparse
 import os
 import re
@@ -13,73 +14,124 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-NODES = [(10 * j + i + 1, 1.0 * i, -0.5 + 0.5 * j) for j in (0, 1) for i in range(4)]        # base
-NODES += [(101 + 10 * j + i, 1.0 + 0.5 * i, 0.01 + 0.5 * j) for j in (0, 1) for i in range(3)]   # block
-QUADS = [(k + 1, 1, k + 1, k + 2, k + 12, k + 11) for k in range(3)] + [(11, 2, 101, 102, 112, 111)]
+NODES = [(10 * j + i + 1, 1.0 * i, -0.5 + 0.5 * j) for j in (0, 1) for i in range(4)]  # base
+NODES += [
+    (101 + 10 * j + i, 1.0 + 0.5 * i, 0.01 + 0.5 * j) for j in (0, 1) for i in range(3)
+]  # block
+QUADS = [(k + 1, 1, k + 1, k + 2, k + 12, k + 11) for k in range(3)] + [
+    (11, 2, 101, 102, 112, 111)
+]
 TRIANGLES = [(12, 2, 102, 103, 113), (13, 2, 102, 113, 112)]
 
 # keyword: its cards, each a dictionary of the fields that are not left blank
-SCENE = [
-    ("TITLE", [{"TITLE": "every keyword once"}]),
-    ("CONTROL_TERMINATION", [{"ENDTIM": "&tend"}]),
-    ("CONTROL_IMPLICIT_GENERAL", [{"IMFLAG": 1, "DT0": "&dt"}]),
-    ("CONTROL_IMPLICIT_DYNAMICS", [{"IMASS": 1, "GAMMA": 0.5, "BETA": 0.25}]),
-    ("CONTROL_IMPLICIT_SOLUTION", [{"NSOLVR": 1}]),
-    ("BIPACT_TIME", [{"SCHEME": "&scheme"}]),
-    ("BIPACT_MASS", [{"TYPE": "LUMPED", "REDIST": 0}]),
-    ("BIPACT_CONTACT", [{"SOLVER": "AUTO", "TOL": "1.0E-10"}, {"PENTOL": "1.0E-9", "ROTWARN": 5.0}]),
-    ("BIPACT_SOLVER", [{"ENGINE": "LDLT", "ORDER": "AUTO"}]),
-    ("BIPACT_LEDGER", [{"EVERY": 10, "GROWTH": "1.0E-9", "ACTION": "WARN"}]),
-    ("NODE", [{"NID": n, "X": x, "Y": y} for n, x, y in NODES]),
-    ("ELEMENT_SHELL", [dict(zip(("EID", "PID", "N1", "N2", "N3", "N4"), e)) for e in QUADS + TRIANGLES]),
-    ("ELEMENT_BEAM", [{"EID": 91, "PID": 9, "N1": 1, "N2": 2}]),
-    ("PART", [{"HEADING": "base"}, {"PID": 1, "SECID": 1, "MID": 1},
-              {"HEADING": "block"}, {"PID": 2, "SECID": 1, "MID": 2}]),
-    ("SECTION_SHELL", [{"SECID": 1, "ELFORM": 13, "NIP": 4}, {"T1": 1.0}]),
-    ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
-    ("MAT_001", [{"MID": 2, "RO": 0.001, "E": 500.0, "PR": 0.0}]),
-    ("SET_NODE_LIST", [{"SID": 1}, {"NID1": 1, "NID2": 2, "NID3": 3, "NID4": 4}]),
-    ("SET_NODE", [{"SID": 2}, {"NID1": 111}]),
-    ("SET_NODE_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 101, "B1END": 113}]),
-    ("SET_PART_LIST", [{"SID": 1}, {"PID1": 1}]),
-    ("SET_PART", [{"SID": 2}, {"PID1": 2}]),
-    ("SET_PART_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 2}]),
-    ("SET_SHELL_LIST", [{"SID": 1}, {"EID1": 11}]),
-    ("SET_SHELL", [{"SID": 2}, {"EID1": 12, "EID2": 13}]),
-    ("SET_SHELL_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 3}]),
-    ("SET_SEGMENT", [{"SID": 1}, {"N1": 112, "N2": 111}]),
-    ("DEFINE_CURVE", [{"LCID": 1}, {"A": 0.0, "O": 0.0}, {"A": 0.01, "O": 1.0}, {"A": 1.0, "O": 1.0}]),
-    ("INITIAL_VELOCITY", [{"NSID": 3}, {"VX": 0.2, "VY": "-&v0"}]),
-    ("INITIAL_VELOCITY_NODE", [{"NID": 1}]),
-    ("INITIAL_VELOCITY_GENERATION", [{"ID": 1, "STYP": 2}, {}]),
-    ("BOUNDARY_SPC_SET", [{"NSID": 1, "DOFX": 1, "DOFY": 1}]),
-    ("BOUNDARY_SPC_NODE", [{"NID": 11, "DOFX": 1}]),
-    ("BOUNDARY_PRESCRIBED_MOTION_SET", [{"NSID": 2, "DOF": 1, "VAD": 0, "LCID": 1, "SF": 0.1, "BIRTH": 0.012}]),
-    ("BOUNDARY_PRESCRIBED_MOTION_NODE", [{"NID": 14, "DOF": 1, "VAD": 2, "LCID": 1, "SF": 0.001, "BIRTH": 0.0005}]),
-    ("LOAD_NODE_SET", [{"NSID": 2, "DOF": 2, "LCID": 1, "SF": -0.01}]),
-    ("LOAD_NODE_POINT", [{"NID": 113, "DOF": 2, "LCID": 1, "SF": -0.01}]),
-    ("LOAD_SEGMENT_SET", [{"SSID": 1, "LCID": 1, "SF": 0.1}]),
-    ("LOAD_SEGMENT", [{"LCID": 1, "SF": 0.1, "AT": 0.005, "N1": 113, "N2": 112}]),
-    ("LOAD_BODY_X", [{"LCID": 1, "SF": 0.0001}]),
-    ("LOAD_BODY_Y", [{"LCID": 1, "SF": 10.0}]),
-    ("CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", [{"SURFA": 1, "SURFB": 2, "FS": "&mu"}]),
-    ("CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE", [{"SURFA": -3, "SURFB": 1, "FS": "&mu"}, {"TBIRTH": 0.03}]),
-    ("RIGIDWALL_PLANAR", [{"NSID": 3}, {"XT": 2.2, "XH": 1.0, "FRIC": 0.1}]),
-    ("BIPACT_PAIR", [{"CID": 1, "SIDE": "AUTO"}]),
-    ("DATABASE_HISTORY_NODE", [{"ID1": 101}]),
-    ("DATABASE_HISTORY_NODE_SET", [{"ID1": 2}]),
-    ("DATABASE_HISTORY_SHELL", [{"ID1": 1}]),
-    ("DATABASE_HISTORY_SHELL_SET", [{"ID1": 2}]),
-] + [("DATABASE_" + name, [{"DT": 0.002}]) for name in
-     ("GLSTAT", "MATSUM", "NODOUT", "ELOUT", "RCFORC", "RWFORC", "SLEOUT", "SPCFORC", "NCFORC")] + [
-    ("BIPACT_TIMING", [{"DT": 0.01}]),
+SCENE = (
+    [
+        ("TITLE", [{"TITLE": "every keyword once"}]),
+        ("CONTROL_TERMINATION", [{"ENDTIM": "&tend"}]),
+        ("CONTROL_IMPLICIT_GENERAL", [{"IMFLAG": 1, "DT0": "&dt"}]),
+        ("CONTROL_IMPLICIT_DYNAMICS", [{"IMASS": 1, "GAMMA": 0.5, "BETA": 0.25}]),
+        ("CONTROL_IMPLICIT_SOLUTION", [{"NSOLVR": 1}]),
+        ("BIPACT_TIME", [{"SCHEME": "&scheme"}]),
+        ("BIPACT_MASS", [{"TYPE": "LUMPED", "REDIST": 0}]),
+        (
+            "BIPACT_CONTACT",
+            [{"SOLVER": "AUTO", "TOL": "1.0E-10"}, {"PENTOL": "1.0E-9", "ROTWARN": 5.0}],
+        ),
+        ("BIPACT_SOLVER", [{"ENGINE": "LDLT", "ORDER": "AUTO"}]),
+        ("BIPACT_LEDGER", [{"EVERY": 10, "GROWTH": "1.0E-9", "ACTION": "WARN"}]),
+        ("NODE", [{"NID": n, "X": x, "Y": y} for n, x, y in NODES]),
+        (
+            "ELEMENT_SHELL",
+            [dict(zip(("EID", "PID", "N1", "N2", "N3", "N4"), e)) for e in QUADS + TRIANGLES],
+        ),
+        ("ELEMENT_BEAM", [{"EID": 91, "PID": 9, "N1": 1, "N2": 2}]),
+        (
+            "PART",
+            [
+                {"HEADING": "base"},
+                {"PID": 1, "SECID": 1, "MID": 1},
+                {"HEADING": "block"},
+                {"PID": 2, "SECID": 1, "MID": 2},
+            ],
+        ),
+        ("SECTION_SHELL", [{"SECID": 1, "ELFORM": 13, "NIP": 4}, {"T1": 1.0}]),
+        ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
+        ("MAT_001", [{"MID": 2, "RO": 0.001, "E": 500.0, "PR": 0.0}]),
+        ("SET_NODE_LIST", [{"SID": 1}, {"NID1": 1, "NID2": 2, "NID3": 3, "NID4": 4}]),
+        ("SET_NODE", [{"SID": 2}, {"NID1": 111}]),
+        ("SET_NODE_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 101, "B1END": 113}]),
+        ("SET_PART_LIST", [{"SID": 1}, {"PID1": 1}]),
+        ("SET_PART", [{"SID": 2}, {"PID1": 2}]),
+        ("SET_PART_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 2}]),
+        ("SET_SHELL_LIST", [{"SID": 1}, {"EID1": 11}]),
+        ("SET_SHELL", [{"SID": 2}, {"EID1": 12, "EID2": 13}]),
+        ("SET_SHELL_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 3}]),
+        ("SET_SEGMENT", [{"SID": 1}, {"N1": 112, "N2": 111}]),
+        (
+            "DEFINE_CURVE",
+            [{"LCID": 1}, {"A": 0.0, "O": 0.0}, {"A": 0.01, "O": 1.0}, {"A": 1.0, "O": 1.0}],
+        ),
+        ("INITIAL_VELOCITY", [{"NSID": 3}, {"VX": 0.2, "VY": "-&v0"}]),
+        ("INITIAL_VELOCITY_NODE", [{"NID": 1}]),
+        ("INITIAL_VELOCITY_GENERATION", [{"ID": 1, "STYP": 2}, {}]),
+        ("BOUNDARY_SPC_SET", [{"NSID": 1, "DOFX": 1, "DOFY": 1}]),
+        ("BOUNDARY_SPC_NODE", [{"NID": 11, "DOFX": 1}]),
+        (
+            "BOUNDARY_PRESCRIBED_MOTION_SET",
+            [{"NSID": 2, "DOF": 1, "VAD": 0, "LCID": 1, "SF": 0.1, "BIRTH": 0.012}],
+        ),
+        (
+            "BOUNDARY_PRESCRIBED_MOTION_NODE",
+            [{"NID": 14, "DOF": 1, "VAD": 2, "LCID": 1, "SF": 0.001, "BIRTH": 0.0005}],
+        ),
+        ("LOAD_NODE_SET", [{"NSID": 2, "DOF": 2, "LCID": 1, "SF": -0.01}]),
+        ("LOAD_NODE_POINT", [{"NID": 113, "DOF": 2, "LCID": 1, "SF": -0.01}]),
+        ("LOAD_SEGMENT_SET", [{"SSID": 1, "LCID": 1, "SF": 0.1}]),
+        ("LOAD_SEGMENT", [{"LCID": 1, "SF": 0.1, "AT": 0.005, "N1": 113, "N2": 112}]),
+        ("LOAD_BODY_X", [{"LCID": 1, "SF": 0.0001}]),
+        ("LOAD_BODY_Y", [{"LCID": 1, "SF": 10.0}]),
+        ("CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", [{"SURFA": 1, "SURFB": 2, "FS": "&mu"}]),
+        (
+            "CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE",
+            [{"SURFA": -3, "SURFB": 1, "FS": "&mu"}, {"TBIRTH": 0.03}],
+        ),
+        ("RIGIDWALL_PLANAR", [{"NSID": 3}, {"XT": 2.2, "XH": 1.0, "FRIC": 0.1}]),
+        ("BIPACT_PAIR", [{"CID": 1, "SIDE": "AUTO"}]),
+        ("DATABASE_HISTORY_NODE", [{"ID1": 101}]),
+        ("DATABASE_HISTORY_NODE_SET", [{"ID1": 2}]),
+        ("DATABASE_HISTORY_SHELL", [{"ID1": 1}]),
+        ("DATABASE_HISTORY_SHELL_SET", [{"ID1": 2}]),
+    ]
+    + [
+        ("DATABASE_" + name, [{"DT": 0.002}])
+        for name in (
+            "GLSTAT",
+            "MATSUM",
+            "NODOUT",
+            "ELOUT",
+            "RCFORC",
+            "RWFORC",
+            "SLEOUT",
+            "SPCFORC",
+            "NCFORC",
+        )
+    ]
+    + [("BIPACT_TIMING", [{"DT": 0.01}])]
+)
+PARAMETERS = [
+    ("Rtend", "0.02"),
+    ("Rdt", "0.0001"),
+    ("Rv0", "1.0"),
+    ("Rmu", "0.2"),
+    ("Cscheme", "THETA"),
 ]
-PARAMETERS = [("Rtend", "0.02"), ("Rdt", "0.0001"), ("Rv0", "1.0"), ("Rmu", "0.2"), ("Cscheme", "THETA")]
 
 
 def layouts(program):
     """{keyword: (help, repeat_from, cards)}, a card a list of (name, first, last)."""
-    text = subprocess.run([program, "--keywords"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    text = subprocess.run(
+        [program, "--keywords"], stdout=subprocess.PIPE, text=True, check=True
+    ).stdout
     found, name = {}, None
     for line in text.split("## Read without effect")[0].splitlines():
         if line.startswith("### *"):
@@ -122,7 +174,9 @@ def header(layout):
     """The comment line with the names of the fields over their columns."""
     out = "$#"
     for name, first, last in layout:
-        out = out.ljust(first - 1) + name.lower()[:last - first].rjust(last - first + 1 - max(0, len(out) - first + 1))
+        out = out.ljust(first - 1) + name.lower()[: last - first].rjust(
+            last - first + 1 - max(0, len(out) - first + 1)
+        )
     return out
 
 
@@ -132,17 +186,26 @@ def deck(program):
     missing = sorted(set(found) - {name for name, _ in SCENE})
     if missing:
         raise SystemExit("make_cards.py does not show: " + " ".join(missing))
-    out = ["$ Every keyword of bipact once, written by scripts/make_cards.py from the program's own table.",
-           "$ A block of quadrilaterals and triangles falls on a held base. Units: any consistent set.",
-           "*KEYWORD", "*PARAMETER", "$#   name1    value1     name2    value2     name3    value3     "
-           "name4    value4"]
+    out = [
+        "$ Every keyword of bipact once, written by scripts/make_cards.py from the program's own "
+        "table.",
+        "$ A block of quadrilaterals and triangles falls on a held base. Units: any consistent "
+        "set.",
+        "*KEYWORD",
+        "*PARAMETER",
+        "$#   name1    value1     name2    value2     name3    value3     " "name4    value4",
+    ]
     for k in range(0, len(PARAMETERS), 4):
-        out.append("".join(n.ljust(10) + v.rjust(10) for n, v in PARAMETERS[k:k + 4]))
+        out.append("".join(n.ljust(10) + v.rjust(10) for n, v in PARAMETERS[k : k + 4]))
     for name, cards in SCENE:
         text, repeat, layout = found[name]
         out += ["$", "$ " + text, "*" + name]
         for k, values in enumerate(cards):
-            row = k if k < len(layout) else (repeat - 1) + (k - repeat + 1) % (len(layout) - repeat + 1)
+            row = (
+                k
+                if k < len(layout)
+                else (repeat - 1) + (k - repeat + 1) % (len(layout) - repeat + 1)
+            )
             if k < len(layout) and layout[row][0][2] - layout[row][0][1] < 60:
                 out.append(header(layout[row]))
             out.append(card_text(layout[row], values))
@@ -150,7 +213,9 @@ def deck(program):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("-o", metavar="FILE", help="deck (default: to stdout)")
     parser.add_argument("--bin", default=os.path.join(ROOT, "bin", "bipact"), help="program")
     a = parser.parse_args()

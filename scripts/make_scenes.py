@@ -9,10 +9,11 @@
     chain          a bar hits a row of equal bars: the last one flies off
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
 
-Every scene takes n (elements along), dt or courant, scheme, theta, mass, redist, output, angle (turns
-it, degrees), mirror=1 (y to -y), triangles=1, and its own names (see the functions). write(path,
-scene, ...) returns the data that a comparison needs.
+Every scene takes n (elements along), dt or courant, scheme, theta, mass, redist, output, angle
+(turns it, degrees), mirror=1 (y to -y), triangles=1, and its own names (see the functions).
+write(path, scene, ...) returns the data that a comparison needs.
 """
+
 import argparse
 import inspect
 import math
@@ -30,37 +31,63 @@ def turned(o, x, y):
     for _ in range(int(quarter) % 4):
         x, y = -y, x
     a = math.radians(rest)
-    return (x, y) if rest == 0.0 else (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a))
+    return (
+        (x, y)
+        if rest == 0.0
+        else (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a))
+    )
 
 
 def grid(o, x0, y0, width, height, nx, ny, part, node, element):
     """Nodes, elements of a rectangle: ([(id, x, y)], [(id, part, nodes...)])."""
-    nodes = [(node + i * (ny + 1) + j, x0 + width * i / nx, y0 + height * j / ny)
-             for i in range(nx + 1) for j in range(ny + 1)]
+    nodes = [
+        (node + i * (ny + 1) + j, x0 + width * i / nx, y0 + height * j / ny)
+        for i in range(nx + 1)
+        for j in range(ny + 1)
+    ]
     elements = []
     for i in range(nx):
         for j in range(ny):
             a = node + i * (ny + 1) + j
             b, c, d = a + ny + 1, a + ny + 2, a + 1
             for corner in [(a, b, c), (a, c, d)] if o["triangles"] else [(a, b, c, d)]:
-                elements.append((element + len(elements), part) + (corner[::-1] if o["mirror"] else corner))
+                elements.append(
+                    (element + len(elements), part) + (corner[::-1] if o["mirror"] else corner)
+                )
     return nodes, elements
 
 
 def deck(o, title, nodes, elements, parts, control, extra):
     """The whole text; parts: [(material line)], one part a body."""
     c = control
-    out = ["*KEYWORD", "*TITLE", title, "*CONTROL_TERMINATION", "%r," % c["tend"],
-           "*CONTROL_IMPLICIT_GENERAL", "1,%r" % c["dt"], "*CONTROL_IMPLICIT_DYNAMICS",
-           "1,%r,%r" % (c["gamma"], c["beta"]), "*BIPACT_TIME"]
+    out = [
+        "*KEYWORD",
+        "*TITLE",
+        title,
+        "*CONTROL_TERMINATION",
+        "%r," % c["tend"],
+        "*CONTROL_IMPLICIT_GENERAL",
+        "1,%r" % c["dt"],
+        "*CONTROL_IMPLICIT_DYNAMICS",
+        "1,%r,%r" % (c["gamma"], c["beta"]),
+        "*BIPACT_TIME",
+    ]
     out += ["NEWMARK,"] if c["scheme"] == "NEWMARK" else ["%s,%r" % (c["scheme"], c["theta"])]
     out += ["*BIPACT_MASS", "%s,%d" % (c["mass"], c["redist"])]
     out += ["*BIPACT_CONTACT", ",%r" % o["tol"]] if o["tol"] else []
     out += ["*NODE"] + ["%d,%r,%r" % ((i,) + turned(o, x, y)) for i, x, y in nodes]
     out += ["*ELEMENT_SHELL"] + [",".join(map(str, e)) for e in elements]
     for k, material in enumerate(parts, 1):
-        out += ["*PART", "body %d" % k, "%d,%d,%d" % (k, k, k), "*SECTION_SHELL", "%d,13,,4" % k,
-                "%r," % c["thickness"], "*MAT_ELASTIC", "%d,%r,%r,%r" % ((k,) + material)]
+        out += [
+            "*PART",
+            "body %d" % k,
+            "%d,%d,%d" % (k, k, k),
+            "*SECTION_SHELL",
+            "%d,13,,4" % k,
+            "%r," % c["thickness"],
+            "*MAT_ELASTIC",
+            "%d,%r,%r,%r" % ((k,) + material),
+        ]
         out += ["*SET_PART_LIST", "%d," % (10 + k), "%d," % k]
     out += extra
     for table in c["tables"]:
@@ -71,13 +98,36 @@ def deck(o, title, nodes, elements, parts, control, extra):
 
 def controls(tend, dt, o, tables):
     """Time, scheme, mass from the common options."""
-    return {"tend": tend, "dt": dt, "scheme": o["scheme"].upper(), "theta": o["theta"],
-            "gamma": o["gamma"], "beta": o["beta"], "mass": o["mass"].upper(), "redist": o["redist"],
-            "thickness": 1.0, "output": o["output"] or dt, "tables": tables}
+    return {
+        "tend": tend,
+        "dt": dt,
+        "scheme": o["scheme"].upper(),
+        "theta": o["theta"],
+        "gamma": o["gamma"],
+        "beta": o["beta"],
+        "mass": o["mass"].upper(),
+        "redist": o["redist"],
+        "thickness": 1.0,
+        "output": o["output"] or dt,
+        "tables": tables,
+    }
 
 
-COMMON = {"scheme": "THETA", "theta": 0.5, "gamma": 0.5, "beta": 0.25, "mass": "CONSISTENT", "redist": 0,
-          "output": None, "dt": None, "courant": 0.5, "angle": 0.0, "mirror": 0, "triangles": 0, "tol": None}
+COMMON = {
+    "scheme": "THETA",
+    "theta": 0.5,
+    "gamma": 0.5,
+    "beta": 0.25,
+    "mass": "CONSISTENT",
+    "redist": 0,
+    "output": None,
+    "dt": None,
+    "courant": 0.5,
+    "angle": 0.0,
+    "mirror": 0,
+    "triangles": 0,
+    "tol": None,
+}
 
 
 def step(o, h, c):
@@ -103,21 +153,28 @@ def moving(o, vx, vy):
 
 def gravity(o, number, gx, gy):
     """Acceleration (gx, gy) x curve of everything."""
-    return [x for name, g in zip("XY", turned(o, gx, gy)) if g for x in
-            ("*LOAD_BODY_" + name, "%d,%r" % (number, -g))]
+    return [
+        x
+        for name, g in zip("XY", turned(o, gx, gy))
+        if g
+        for x in ("*LOAD_BODY_" + name, "%d,%r" % (number, -g))
+    ]
 
 
 def history(ids):
     """Cards of a history of nodes."""
     ids = list(ids)
-    return ["*DATABASE_HISTORY_NODE"] + [",".join(map(str, ids[k:k + 8])) + "," for k in range(0, len(ids), 8)]
+    return ["*DATABASE_HISTORY_NODE"] + [
+        ",".join(map(str, ids[k : k + 8])) + "," for k in range(0, len(ids), 8)
+    ]
 
 
 def node_set(number, ids):
     """Cards of a node set."""
     ids = list(ids)
-    return ["*SET_NODE_LIST", "%d," % number] + [",".join(map(str, ids[k:k + 8])) + ","
-                                                  for k in range(0, len(ids), 8)]
+    return ["*SET_NODE_LIST", "%d," % number] + [
+        ",".join(map(str, ids[k : k + 8])) + "," for k in range(0, len(ids), 8)
+    ]
 
 
 def wall(o, n=100, ny=1, gap=0.01, v=1.0, poisson=0.0, mu=0.0, touch=None, tend=0.04):
@@ -128,93 +185,179 @@ def wall(o, n=100, ny=1, gap=0.01, v=1.0, poisson=0.0, mu=0.0, touch=None, tend=
         gap = (max(0, round(gap / (v * dt) - touch)) + touch) * dt * v
     nodes, elements = grid(o, -length, 0.0, length, 1.0, n, ny, 1, 1, 1)
     face = [i for i, x, _ in nodes if x == 0.0]
-    text = deck(o, "bar on a rigid wall", nodes, elements, [(1.0e-3, 1000.0, poisson)], controls(
-        tend, dt, o, ["GLSTAT", "MATSUM", "NODOUT", "RWFORC=%r" % dt, "SLEOUT"]),
-        plane(o, gap, 0.0, -1.0, 0.0, mu) + moving(o, v, 0.0) + history(face))
+    text = deck(
+        o,
+        "bar on a rigid wall",
+        nodes,
+        elements,
+        [(1.0e-3, 1000.0, poisson)],
+        controls(tend, dt, o, ["GLSTAT", "MATSUM", "NODOUT", "RWFORC=%r" % dt, "SLEOUT"]),
+        plane(o, gap, 0.0, -1.0, 0.0, mu) + moving(o, v, 0.0) + history(face),
+    )
     bar = {"length": length, "speed": c, "impedance": 1.0, "velocity": v}
-    return text, {"case": "wall", "bars": [bar, dict(bar, velocity=-v)], "gap": gap, "v0": v, "L": length,
-                  "c": c, "axis": list(turned(o, 1.0, 0.0)), "sides": [1, 2], "face1": face, "dt": dt, "tend": tend}
+    return text, {
+        "case": "wall",
+        "bars": [bar, dict(bar, velocity=-v)],
+        "gap": gap,
+        "v0": v,
+        "L": length,
+        "c": c,
+        "axis": list(turned(o, 1.0, 0.0)),
+        "sides": [1, 2],
+        "face1": face,
+        "dt": dt,
+        "tend": tend,
+    }
 
 
 def bouncing(o, n=100, periods=1.0):
     """The bar of analytic.BouncingBar, lying along x; gravity acts toward the wall x = 0."""
-    from analytic import BouncingBar    # needs numpy, which the other scenes do not
+    from analytic import BouncingBar  # needs numpy, which the other scenes do not
+
     exact = BouncingBar()
     dt = step(o, exact.length / n, exact.speed)
     tend = max(1, round(periods * exact.period / dt)) * dt
     nodes, elements = grid(o, exact.height, 0.0, exact.length, 1.0, n, 1, 1, 1, 1)
     face = [i for i, x, _ in nodes if x == exact.height]
-    text = deck(o, "bouncing bar", nodes, elements, [(exact.density, exact.young, 0.0)], controls(
-        tend, dt, o, ["GLSTAT", "NODOUT", "RWFORC=%r" % dt, "SLEOUT"]),
-        curve(1, (0.0, exact.gravity), (2.0 * tend, exact.gravity)) + gravity(o, 1, -1.0, 0.0)
-        + plane(o, 0.0, 0.0, 1.0, 0.0, 0.0) + history(face))
+    text = deck(
+        o,
+        "bouncing bar",
+        nodes,
+        elements,
+        [(exact.density, exact.young, 0.0)],
+        controls(tend, dt, o, ["GLSTAT", "NODOUT", "RWFORC=%r" % dt, "SLEOUT"]),
+        curve(1, (0.0, exact.gravity), (2.0 * tend, exact.gravity))
+        + gravity(o, 1, -1.0, 0.0)
+        + plane(o, 0.0, 0.0, 1.0, 0.0, 0.0)
+        + history(face),
+    )
     return text, {"face": face, "dt": dt, "tend": tend, "exact": exact}
 
 
-def block_on_plane(o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block"):
+def block_on_plane(
+    o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block"
+):
     """A block with its foot on the plane y = 0."""
     c = (young / density) ** 0.5
     dt = step(o, size[0] / n, c)
+    tend = math.ceil(tend / dt - 1.0e-9) * dt
     nodes, elements = grid(o, 0.0, 0.0, size[0], size[1], n, max(1, n // 2), 1, 1, 1)
-    text = deck(o, title, nodes, elements, [(density, young, 0.0)], controls(tend, dt, o, tables),
-                plane(o, 0.0, 0.0, 0.0, 1.0, mu) + extra(nodes))
-    return text, {"nodes": nodes, "dt": dt, "tend": tend, "mass": density * size[0] * size[1],
-                  "bounce": 4.0 * size[1] / c, "mu": mu}
+    text = deck(
+        o,
+        title,
+        nodes,
+        elements,
+        [(density, young, 0.0)],
+        controls(tend, dt, o, tables),
+        plane(o, 0.0, 0.0, 0.0, 1.0, mu) + extra(nodes),
+    )
+    return text, {
+        "nodes": nodes,
+        "dt": dt,
+        "tend": tend,
+        "mass": density * size[0] * size[1],
+        "bounce": 4.0 * size[1] / c,
+        "mu": mu,
+    }
 
 
 def sliding(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7):
-    """Set down without stress: the normal force oscillates about m g with period 4 H/c (`bounce`); the
-    friction impulse differs from mu m g t by at most mu m g times that, so the velocity by
-    mu g 4 H/c and the place by v 4 H/c."""
-    text, meta = block_on_plane(o, n, young, lambda nodes: curve(1, (0.0, g), (2 * tend, g))
-                                + gravity(o, 1, 0.0, -1.0) + moving(o, v, 0.0), tend,
-                                ["GLSTAT", "MATSUM", "RWFORC"], mu, title="sliding block")
+    """Set down without stress: the normal force oscillates about m g with period 4 H/c
+    (`bounce`); the friction impulse differs from mu m g t by at most mu m g times that, so the
+    velocity by mu g 4 H/c and the place by v 4 H/c."""
+    text, meta = block_on_plane(
+        o,
+        n,
+        young,
+        lambda nodes: curve(1, (0.0, g), (2 * tend, g))
+        + gravity(o, 1, 0.0, -1.0)
+        + moving(o, v, 0.0),
+        tend,
+        ["GLSTAT", "MATSUM", "RWFORC"],
+        mu,
+        title="sliding block",
+    )
     return text, dict(meta, v=v, g=g)
 
 
 def incline(o, n=4, mu=0.3, ratio=1.0, g=10.0, young=1.0e5, tend=0.6, ramp=0.2):
-    """Gravity (g_t, -g) with g_t = ratio mu g, both grown together over `ramp`: sticks for ratio < 1,
-    accelerates with (ratio - 1) mu g after it for ratio > 1."""
-    text, meta = block_on_plane(o, n, young, lambda nodes: curve(1, (0.0, 0.0), (ramp, g), (2 * tend, g))
-                                + gravity(o, 1, ratio * mu, -1.0), tend,
-                                ["GLSTAT", "MATSUM", "RWFORC"], mu, title="block on an incline")
+    """Gravity (g_t, -g) with g_t = ratio mu g, both grown together over `ramp`: sticks for
+    ratio < 1, accelerates with (ratio - 1) mu g after it for ratio > 1."""
+    text, meta = block_on_plane(
+        o,
+        n,
+        young,
+        lambda nodes: curve(1, (0.0, 0.0), (ramp, g), (2 * tend, g))
+        + gravity(o, 1, ratio * mu, -1.0),
+        tend,
+        ["GLSTAT", "MATSUM", "RWFORC"],
+        mu,
+        title="block on an incline",
+    )
     return text, dict(meta, ramp=ramp, g=g, ratio=ratio)
 
 
 def pushed(o, n=4, mu=0.2, g=10.0, rate=5.0, young=1.0e5, tend=0.8, ramp=0.2):
-    """Gravity grows over `ramp`; then a force rate x (t - ramp) pushes at the height of the foot's rows:
-    it sticks until rate (t - ramp) = mu m g, then m v' = rate (t - ramp) - mu m g."""
+    """Gravity grows over `ramp`; then a force rate x (t - ramp) pushes at the height of the
+    foot's rows: it sticks until rate (t - ramp) = mu m g, then m v' = rate (t - ramp) - mu m
+    g."""
+
     def loads(nodes):
         left = [i for i, x, _ in nodes if x == 0.0]
         out = curve(1, (0.0, 0.0), (ramp, g), (2 * tend, g)) + gravity(o, 1, 0.0, -1.0)
-        out += curve(2, (0.0, 0.0), (ramp, 0.0), (tend, rate * (tend - ramp)), (2 * tend, rate * (tend - ramp)))
+        out += curve(
+            2,
+            (0.0, 0.0),
+            (ramp, 0.0),
+            (tend, rate * (tend - ramp)),
+            (2 * tend, rate * (tend - ramp)),
+        )
         out += node_set(5, left)
         for dof, f in enumerate(turned(o, 1.0 / len(left), 0.0), 1):
             out += ["*LOAD_NODE_SET", "5,%d,2,%r" % (dof, f)] if f else []
         return out
-    text, meta = block_on_plane(o, n, young, loads, tend, ["GLSTAT", "MATSUM", "RWFORC"], mu,
-                                title="pushed block")
+
+    text, meta = block_on_plane(
+        o, n, young, loads, tend, ["GLSTAT", "MATSUM", "RWFORC"], mu, title="pushed block"
+    )
     return text, dict(meta, ramp=ramp, g=g, rate=rate)
 
 
 def chain(o, bars=3, n=20, v=1.0, steps_apart=5):
-    """Equal bars in a row, gaps of whole steps: momentum passes from bar to bar without loss; at
-    Courant number 1 and with the mass DISPERSION exactly."""
+    """Equal bars in a row, gaps of whole steps: momentum passes from bar to bar without loss;
+    at Courant number 1 and with the mass DISPERSION exactly."""
     c, length = 1000.0, 10.0
     dt = step(o, length / n, c)
     gap = steps_apart * dt * v
     nodes, elements, extra = [], [], []
     for k in range(bars):
-        more, cells = grid(o, k * (length + gap), 0.0, length, 1.0, n, 1, k + 1, 1 + len(nodes),
-                           1 + len(elements))
+        more, cells = grid(
+            o,
+            k * (length + gap),
+            0.0,
+            length,
+            1.0,
+            n,
+            1,
+            k + 1,
+            1 + len(nodes),
+            1 + len(elements),
+        )
         nodes, elements = nodes + more, elements + cells
         if k:
             extra += ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "%d,%d" % (10 + k, 11 + k)]
-    # Each bar is struck steps_apart after the one before has started: gap/v; the pulse takes 2 L/c.
+    # Each bar is struck steps_apart after the one before has started: gap/v; the pulse takes 2
+    # L/c.
     tend = (bars * (2 * n + steps_apart) + n) * dt
-    text = deck(o, "chain of %d bars" % bars, nodes, elements, bars * [(1.0e-3, 1000.0, 0.0)], controls(
-        tend, dt, o, ["GLSTAT", "MATSUM", "RCFORC", "SLEOUT"]),
-        extra + ["*INITIAL_VELOCITY_GENERATION", "1,2,,%r,%r" % turned(o, v, 0.0), ""])
+    text = deck(
+        o,
+        "chain of %d bars" % bars,
+        nodes,
+        elements,
+        bars * [(1.0e-3, 1000.0, 0.0)],
+        controls(tend, dt, o, ["GLSTAT", "MATSUM", "RCFORC", "SLEOUT"]),
+        extra + ["*INITIAL_VELOCITY_GENERATION", "1,2,,%r,%r" % turned(o, v, 0.0), ""],
+    )
     return text, {"dt": dt, "tend": tend, "bars": bars, "v": v}
 
 
@@ -222,8 +365,15 @@ def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     """A body over a plane at a gap of 0 or 1e-15, without load: no force may appear."""
     dt = step(o, 1.0 / n, 100.0)
     nodes, elements = grid(o, 0.0, gap, 1.0, 0.5, n, 2, 1, 1, 1)
-    text = deck(o, "grazing", nodes, elements, [(1.0, 1.0e4, 0.3)], controls(
-        tend, dt, o, ["GLSTAT", "RWFORC"]), plane(o, 0.0, 0.0, 0.0, 1.0, mu) + moving(o, v, 0.0))
+    text = deck(
+        o,
+        "grazing",
+        nodes,
+        elements,
+        [(1.0, 1.0e4, 0.3)],
+        controls(tend, dt, o, ["GLSTAT", "RWFORC"]),
+        plane(o, 0.0, 0.0, 0.0, 1.0, mu) + moving(o, v, 0.0),
+    )
     return text, {"dt": dt, "tend": tend}
 
 
@@ -250,7 +400,9 @@ def value_of(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("scene", choices=sorted(SCENES))
     parser.add_argument("options", nargs="*", metavar="name=value")
     parser.add_argument("-o", metavar="FILE", default="scene.k", help="deck (scene.k)")

@@ -7,11 +7,13 @@ one table over time (--table, --columns).  Dimensions in brackets: [L] length, [
 [F] force; a deck has no other units.  Colours: Okabe and Ito (2008), safe for colour-blind
 eyes.
 """
+
 import argparse
 import os
 import sys
 
 import matplotlib
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
@@ -21,23 +23,40 @@ from compare import Run, load_meta, meta_of  # noqa: E402
 from tables import TableError, read_run  # noqa: E402
 
 BLACK, ORANGE, SKY, GREEN, BLUE, RED, PINK = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7")
+    "#000000",
+    "#E69F00",
+    "#56B4E9",
+    "#009E73",
+    "#0072B2",
+    "#D55E00",
+    "#CC79A7",
+)
 CYCLE = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK)
-STYLE = {"figure.dpi": 150, "savefig.dpi": 150, "font.size": 12, "axes.titlesize": 14,
-         "legend.fontsize": 11, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.8,
-         "axes.spines.top": False, "axes.spines.right": False}
+STYLE = {
+    "figure.dpi": 150,
+    "savefig.dpi": 150,
+    "font.size": 12,
+    "axes.titlesize": 14,
+    "legend.fontsize": 11,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "lines.linewidth": 1.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+}
 DIMENSION = {  # of the columns that are not listed: a pure number
     "T": "time dt cpu input assemble factor solve search",
     "L": "ux uy uz x y z gap slip gapmin penetration",
     "L/T": "vx vy vz vmx vmy vmz",
     "L/T^2": "ax ay az",
     "F L": "kinetic internal total initial external motion friction unsolved algorithmic "
-           "damping energy normalwork frictionwork",
+    "damping energy normalwork frictionwork",
     "F": "fx fy fz fmx fmy fmz fn ft",
     "F T": "momx momy momz ix iy iz",
     "F L T": "angx angy angz",
     "F/L^2": "sxx syy szz sxy syz szx pressure",
-    "M": "mass"}
+    "M": "mass",
+}
 
 
 def unit_of(table, column):
@@ -52,11 +71,13 @@ def unit_of(table, column):
 
 # ---------------------------------------------------------------- frame of a figure
 
+
 def new_figure(title, caption, panels=1):
     """Figure with title, one line on what to look for, and panels side by side."""
     plt.rcParams.update(STYLE)
-    figure, axes = plt.subplots(1, panels, figsize=(8.6 if panels == 1 else 13.0, 5.4),
-                                sharey=panels > 1, squeeze=False)
+    figure, axes = plt.subplots(
+        1, panels, figsize=(8.6 if panels == 1 else 13.0, 5.4), sharey=panels > 1, squeeze=False
+    )
     figure.text(0.02, 0.975, title, fontsize=15, ha="left", va="top", weight="bold")
     figure.text(0.02, 0.915, caption, fontsize=11.5, ha="left", va="top", color="#444444")
     return figure, list(axes[0])
@@ -81,8 +102,14 @@ def label(axes, x, y, legend=True):
 def contact_window(axes, exact):
     """Grey band: the exact time of contact."""
     if np.isfinite(exact.release):
-        axes.axvspan(exact.touch, exact.release, color="#999999", alpha=0.15, lw=0,
-                     label="exact contact time")
+        axes.axvspan(
+            exact.touch,
+            exact.release,
+            color="#999999",
+            alpha=0.15,
+            lw=0,
+            label="exact contact time",
+        )
 
 
 def need(run, table, name):
@@ -98,16 +125,24 @@ def fine_times(run):
 
 # ---------------------------------------------------------------- figures of the two bars
 
+
 def displacement(run, path, name, caption=None):
     """Displacement of the contact end, computed over exact."""
     need(run, run.nodout, "nodout")
     figure, (axes,) = new_figure(
         "Displacement of the point of impact, %s" % name,
-        caption or "Look at the plateau: the end must stand still while the bars touch.")
+        caption or "Look at the plateau: the end must stand still while the bars touch.",
+    )
     t, u = run.tip()
     contact_window(axes, run.exact)
-    axes.plot(fine_times(run), run.exact.tip(fine_times(run)), color=BLACK, lw=3.2, alpha=0.45,
-              label="exact")
+    axes.plot(
+        fine_times(run),
+        run.exact.tip(fine_times(run)),
+        color=BLACK,
+        lw=3.2,
+        alpha=0.45,
+        label="exact",
+    )
     axes.plot(t, u, color=BLUE, lw=1.4, label="computed")
     label(axes, "time [T]", "displacement [L]")
     return finish(figure, path)
@@ -118,11 +153,15 @@ def energies(run, path, name, caption=None):
     need(run, run.glstat, "glstat")
     figure, (axes,) = new_figure(
         "Energies, %s" % name,
-        caption or "Look at the total: it must stay at its initial value and never rise.")
+        caption or "Look at the total: it must stay at its initial value and never rise.",
+    )
     exact_t = np.linspace(0.0, run.exact.tend, 401)
     exact = run.exact.energies(exact_t)
-    for column, text, colour in (("total", "total", BLACK), ("kinetic", "kinetic", BLUE),
-                                 ("internal", "strain", RED)):
+    for column, text, colour in (
+        ("total", "total", BLACK),
+        ("kinetic", "kinetic", BLUE),
+        ("internal", "strain", RED),
+    ):
         axes.plot(run.glstat["time"], run.glstat[column], color=colour, label=text)
     for values, colour, text in zip(exact, (BLUE, RED), ("exact kinetic", "exact strain")):
         axes.plot(exact_t, values, color=colour, ls=(0, (2, 3)), lw=1.3, alpha=0.8, label=text)
@@ -138,13 +177,25 @@ def force_panel(axes, run, name, top):
     contact_window(axes, run.exact)
     axes.plot(t, raw, color=SKY, lw=0.7, zorder=2, label="force of the step")
     exact_t = fine_times(run)
-    axes.plot(exact_t, run.exact.force(exact_t), color=BLACK, lw=3.2, alpha=0.45, zorder=3,
-              label="exact")
+    axes.plot(
+        exact_t,
+        run.exact.force(exact_t),
+        color=BLACK,
+        lw=3.2,
+        alpha=0.45,
+        zorder=3,
+        label="exact",
+    )
     axes.plot(t, run.force("fm")[1], color=RED, lw=1.3, zorder=4, label="mean of two steps")
     axes.set_ylim(-0.15 * scale, top * scale)
     if raw.max() > top * scale:
-        axes.annotate("cut off; raw peak %.3g" % raw.max(), (t[raw.argmax()], top * scale),
-                      xytext=(8, -14), textcoords="offset points", fontsize=11)
+        axes.annotate(
+            "cut off; raw peak %.3g" % raw.max(),
+            (t[raw.argmax()], top * scale),
+            xytext=(8, -14),
+            textcoords="offset points",
+            fontsize=11,
+        )
     if not run.every_step(t):
         name += " (not every step)"
     axes.set_title(name, loc="left", fontsize=12)
@@ -153,9 +204,12 @@ def force_panel(axes, run, name, top):
 def forces(runs, path, caption=None, top=2.6):
     """Contact force of several runs {name: run} side by side; `top` cuts the force axis [-]."""
     figure, panels = new_figure(
-        "Contact force", caption or
-        "The raw force may alternate from step to step (period 2); its two-step mean must "
-        "follow the exact pulse.", panels=len(runs))
+        "Contact force",
+        caption
+        or "The raw force may alternate from step to step (period 2); its two-step mean must "
+        "follow the exact pulse.",
+        panels=len(runs),
+    )
     for axes, (name, run) in zip(panels, runs.items()):
         force_panel(axes, run, name, top)
         label(axes, "time [T]", "contact force [F]" if axes is panels[0] else "", legend=False)
@@ -164,6 +218,7 @@ def forces(runs, path, caption=None, top=2.6):
 
 
 # ---------------------------------------------------------------- any table
+
 
 def columns(directory, table_name, names, path, x="time", ids=None, title=None, caption=None):
     """Columns of a table over time; `ids` = {id column: value} picks the rows."""
@@ -174,8 +229,9 @@ def columns(directory, table_name, names, path, x="time", ids=None, title=None, 
     if not len(table):
         raise TableError("%s: no such rows" % table.path)
     picked = ", ".join("%s %d" % pair for pair in (ids or {}).items())
-    figure, (axes,) = new_figure(title or "%s %s" % (table_name, picked),
-                                 caption or "%s over %s" % (", ".join(names), x))
+    figure, (axes,) = new_figure(
+        title or "%s %s" % (table_name, picked), caption or "%s over %s" % (", ".join(names), x)
+    )
     for name, colour in zip(names, CYCLE * (1 + len(names) // len(CYCLE))):
         axes.plot(table[x], table[name], color=colour, label=name + unit_of(table_name, name))
     label(axes, x + unit_of(table_name, x), axis_name(table_name, names))
@@ -192,26 +248,40 @@ def axis_name(table_name, names):
 
 # ---------------------------------------------------------------- command line
 
+
 def make_parser():
     """Command line."""
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="Examples: plot_history.py run.out --table glstat --columns "
-               "total,kinetic,internal -o energy.png;  plot_history.py run.out --table nodout "
-               "--id node=201 --columns ux -o u.png;  plot_history.py run.out --kind force "
-               "--meta two_bars.json -o force.png")
+        "total,kinetic,internal -o energy.png;  plot_history.py run.out --table nodout "
+        "--id node=201 --columns ux -o u.png;  plot_history.py run.out --kind force "
+        "--meta two_bars.json -o force.png",
+    )
     parser.add_argument("run", metavar="RUN_DIR", help="directory of the tables")
     parser.add_argument("-o", dest="path", required=True, metavar="FIG.png")
     parser.add_argument("--table", help="table to draw, e.g. glstat")
     parser.add_argument("--columns", help="columns of the table, a,b,c")
     parser.add_argument("--x", default="time", help="column of the abscissa (time)")
-    parser.add_argument("--id", action="append", default=[], metavar="NAME=ID",
-                        help="rows to draw, e.g. node=201; repeatable")
-    parser.add_argument("--kind", choices=("displacement", "energy", "force"),
-                        help="figure of the two-bar impact instead of a table")
-    parser.add_argument("--meta", metavar="FILE",
-                        help="scene of --kind, as written by make_bars.py --meta (default: the "
-                             "paper's data, gap 0.02)")
+    parser.add_argument(
+        "--id",
+        action="append",
+        default=[],
+        metavar="NAME=ID",
+        help="rows to draw, e.g. node=201; repeatable",
+    )
+    parser.add_argument(
+        "--kind",
+        choices=("displacement", "energy", "force"),
+        help="figure of the two-bar impact instead of a table",
+    )
+    parser.add_argument(
+        "--meta",
+        metavar="FILE",
+        help="scene of --kind, as written by make_bars.py --meta (default: the "
+        "paper's data, gap 0.02)",
+    )
     parser.add_argument("--title", help="title of the figure")
     parser.add_argument("--caption", help="line under the title")
     return parser

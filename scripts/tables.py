@@ -11,6 +11,7 @@ line '# end: done | failed | stopped, cycle N'.  Numbers are in the units of the
 
 On the command line: a summary of the tables of a run (columns, rows, range of every column).
 """
+
 import argparse
 import glob
 import os
@@ -21,7 +22,8 @@ import numpy as np
 
 INTEGER_COLUMNS = frozenset(
     "cycle node part element contact side wall nactive nstick nslip status "
-    "solves sweeps factors".split())
+    "solves sweeps factors".split()
+)
 ID_COLUMNS = ("node", "part", "element", "wall", "contact", "side")
 END_LINE = re.compile(r"#\s*end:\s*(\w+)[\s,]*cycle\s+(\d+)")
 
@@ -48,8 +50,9 @@ class Table:
         try:
             return self._data[name]
         except KeyError:
-            raise TableError("%s: no column '%s'; there are: %s"
-                             % (self.path, name, " ".join(self.names))) from None
+            raise TableError(
+                "%s: no column '%s'; there are: %s" % (self.path, name, " ".join(self.names))
+            ) from None
 
     def __contains__(self, name):
         return name in self._data
@@ -97,8 +100,10 @@ def parse_numbers(path, body, columns):
     except ValueError as problem:
         raise TableError("%s: %s" % (path, problem)) from None
     if numbers.shape[1] != columns:
-        raise TableError("%s: rows have %d fields, the header names %d columns"
-                         % (path, numbers.shape[1], columns))
+        raise TableError(
+            "%s: rows have %d fields, the header names %d columns"
+            % (path, numbers.shape[1], columns)
+        )
     return numbers
 
 
@@ -162,15 +167,19 @@ def summarise(table):
         column = table[name]
         if name in ID_COLUMNS:
             ids = table.ids(name)
-            yield "  %-12s ids: %s%s" % (name, " ".join(map(str, ids[:8])),
-                                         " ..." if len(ids) > 8 else "")
+            yield "  %-12s ids: %s%s" % (
+                name,
+                " ".join(map(str, ids[:8])),
+                " ..." if len(ids) > 8 else "",
+            )
         elif len(column):
             yield "  %-12s %24.16E .. %24.16E" % (name, column.min(), column.max())
 
 
 def main(argv=None):
     parser = argparse.ArgumentParser(
-        description="Print rows, end and column ranges of the tables of a run.")
+        description="Print rows, end and column ranges of the tables of a run."
+    )
     parser.add_argument("path", nargs="+", help="NAME.tab, or a run directory")
     arguments = parser.parse_args(argv)
     try:

@@ -21,16 +21,23 @@ contains
   !> |c_A - c_B| + max|u - u_ref - c_A| + max|u - u_ref - c_B|, c = mean displacement of a side
   !> since the search, bounds the relative motion (triangle inequality); it must stay below the
   !> smallest distance found, with twice the motion of the last step kept for the coming one.
-  subroutine test_sleep(pair, u, asleep)
+  !> largest [L] is the largest motion of a node in the last step: while twice its sum since the
+  !> bound was last evaluated leaves room, the bound itself need not be.
+  subroutine test_sleep(pair, u, largest, asleep)
     type(pair_t), intent(inout) :: pair
     real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in) :: largest
     logical, intent(out) :: asleep
     real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b, moved
     asleep = pair%safe_distance >= huge(one)
     if (asleep .or. pair%safe_distance < zero) return
+    pair%room = pair%room - 2.0_wp*largest
+    asleep = pair%room > 4.0_wp*largest
+    if (asleep) return
     call side_motion(pair%contactor%node, pair%contactor_reference, u, mean_a, spread_a)
     call side_motion(pair%obstacle%node, pair%obstacle_reference, u, mean_b, spread_b)
     moved = sqrt(sum((mean_a - mean_b)**2)) + spread_a + spread_b
+    pair%room = pair%safe_distance - moved
     asleep = moved + 2.0_wp*max(zero, moved - pair%moved) < pair%safe_distance
     pair%moved = moved
   end subroutine test_sleep
@@ -83,6 +90,7 @@ contains
       call near_edges(model, pair, u, reach, near)
       pair%safe_distance = huge(one)
       pair%moved = zero
+      pair%room = zero
       do k = 1, size(pair%contactor%node)
         place = model%x(:, pair%contactor%node(k)) + u(:, pair%contactor%node(k))
         distance = sqrt(sum(max(low - place, place - high, zero)**2))
@@ -119,6 +127,7 @@ contains
       if (.not. reach > pair%contactor%mean_length) reach = half*reach
       pair%safe_distance = huge(one)
       pair%moved = zero
+      pair%room = zero
       do k = 1, size(pair%contactor%node)
         gap = wall_distance(pair, model%x, u, pair%contactor%node(k))
         if (.not. listed(contact, pair%contactor%node(k))) &

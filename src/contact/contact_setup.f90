@@ -104,12 +104,13 @@ contains
   end subroutine add_areas
 
   !> Candidates for the coming step: searches if any pair has moved enough to wake, then tracks.
+  !> largest: of the motions du. A pair is left alone before its birth and after its death.
   !> new_block tells that the block of nodes had to grow: the matrix must be factored again.
-  subroutine find_candidates(model, contact, u, du, v, h, cycle, t1, new_block, status)
+  subroutine find_candidates(model, contact, u, du, v, largest, h, cycle, t1, new_block, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), du(:, :), v(:, :)
-    real(wp), intent(in) :: h, t1
+    real(wp), intent(in) :: largest, h, t1
     integer, intent(in) :: cycle
     logical, intent(out) :: new_block
     type(status_t), intent(inout) :: status
@@ -118,13 +119,15 @@ contains
     new_block = .false.
     awake = .false.
     do p = 1, size(contact%pair)
-      call test_sleep(contact%pair(p), u, asleep)
+      if (.not. acts(contact%pair(p), t1)) cycle
+      call test_sleep(contact%pair(p), u, largest, asleep)
       awake = awake .or. .not. asleep
     end do
     if (awake .or. contact%keeps_before) call remember(contact)
     if (awake) then
       contact%n = 0
       do p = 1, size(contact%pair)
+        if (.not. acts(contact%pair(p), t1)) cycle
         call search_pair(model, contact, p, u, du, v, h, cycle, status)
         if (failed(status)) return
       end do
@@ -136,6 +139,12 @@ contains
       new_block = .true.
     end if
   end subroutine find_candidates
+
+  pure logical function acts(pair, t1)
+    type(pair_t), intent(in) :: pair
+    real(wp), intent(in) :: t1
+    acts = t1 >= pair%birth .and. t1 <= pair%death
+  end function acts
 
   subroutine remember(contact)
     type(contact_t), intent(inout) :: contact

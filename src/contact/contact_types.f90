@@ -39,6 +39,7 @@ module contact_types
     real(wp), allocatable :: contactor_reference(:, :), obstacle_reference(:, :)
     real(wp) :: safe_distance = -1.0_wp    !< [L]; < 0: never searched
     real(wp) :: moved = zero               !< bound of the relative motion since the search [L]
+    real(wp) :: room = zero                !< what the nodes may move before it is evaluated [L]
     ! Results for the tables.
     real(wp) :: force(2, 2) = zero         !< (xy, side) of the step just done [F]
     real(wp) :: force_before(2, 2) = zero  !< of the step before

@@ -65,6 +65,7 @@ module run_data
     real(wp), allocatable :: reaction(:, :)                !< of the step just done [F]
     real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
     integer :: factors = 0, analyses = 0, solves = 0
+    real(wp) :: largest_motion = zero  !< of a node in the step just done [L]
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
     logical :: broken = .false.        !< NaN or infinity: the state is not written

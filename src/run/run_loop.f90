@@ -158,7 +158,7 @@ contains
     logical :: new_block
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
-        run%scheme%h, run%state%cycle, t1, new_block, status)
+        run%largest_motion, run%scheme%h, run%state%cycle, t1, new_block, status)
     if (failed(status)) call add_place(status, moment(run))
     if (new_block) call factor_matrix(run, .true., status)
   end subroutine prepare_contact
@@ -201,21 +201,35 @@ contains
     run%b = run%scheme%load_weight(1)*run%load_0 + run%scheme%load_weight(2)*run%load_1
   end subroutine weigh_loads
 
+  !> The largest motion of a node in the step; NaN or infinity is a failure.
   subroutine check_finite(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    real(wp) :: total(2)
-    integer :: i
-    total = zero
-    do i = 1, run%system%n
-      total = total + run%state%du(:, i)
-    end do
-    if (abs(total(1) + total(2)) <= huge(one)) return
+    real(wp) :: total, largest
+    call sum_squares(size(run%state%du, 2), run%state%du, total, largest)
+    run%largest_motion = sqrt(largest)
+    if (total <= huge(one)) return
     run%broken = .true.
     call fail(status, status_numerical, &
         'the displacements are no numbers any more (NaN or infinite)', &
         hint='check units, densities and the time step')
   end subroutine check_finite
+
+  !> Sum and maximum of the squared lengths; a NaN stays in the sum.
+  pure subroutine sum_squares(n, x, total, largest)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: x(2, n)
+    real(wp), intent(out) :: total, largest
+    real(wp) :: a
+    integer :: i
+    total = zero
+    largest = zero
+    do i = 1, n
+      a = x(1, i)**2 + x(2, i)**2
+      total = total + a
+      largest = merge(a, largest, a > largest)
+    end do
+  end subroutine sum_squares
 
   !> Works of the step into the ledger.
   subroutine account(run, acting, status)

@@ -116,7 +116,7 @@ contains
     logical :: new_block
     if (.not. run%plan%contact .or. failed(status)) return
     call run%timers%enter(phase_search)
-    call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
+    call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, zero, &
         run%scheme%h, 0, run%scheme%h, new_block, status)
     if (failed(status)) &
         call add_place(status, run%deck%place(run%contact%pair(run%contact%searched)%record))

@@ -1,6 +1,7 @@
-"""Faulty decks and their messages, to the letter. Each fault changes base.k (or two_blocks.k) in one
-place; the expected text is in expected.txt. `faults.py --write` makes that file anew (read the
-difference!). Every fault must give exit code 2 and write no file."""
+"""Faulty decks and their messages, to the letter. Each fault changes base.k (or two_blocks.k)
+in one place; the expected text is in expected.txt. `faults.py --write` makes that file anew
+(read the difference!). Every fault must give exit code 2 and write no file."""
+
 import os
 import shutil
 import subprocess
@@ -32,20 +33,30 @@ BASE_FAULTS = [
     ("end time missing", "*CONTROL_TERMINATION\n     &tend\n", ""),
     ("keyword twice", "*END", "*DATABASE_GLSTAT\n     0.002\n*END"),
     ("own keyword twice", "*END", "*BIPACT_TIME\n     THETA\n*END"),
-    ("card missing", "*INITIAL_VELOCITY\n         1\n       1.0\n", "*INITIAL_VELOCITY\n         1\n"),
+    (
+        "card missing",
+        "*INITIAL_VELOCITY\n         1\n       1.0\n",
+        "*INITIAL_VELOCITY\n         1\n",
+    ),
     ("all cards missing", "*MAT_ELASTIC\n" + MATERIAL + "\n", "*MAT_ELASTIC\n"),
     ("half a part", "*SECTION_SHELL", "another\n*SECTION_SHELL"),
     ("card too many", "*TITLE\n", "*TITLE\none\ntwo\n"),
-    ("title too long", "a block in flight, the deck that the faulty ones are made from",
-     "a title of more than eighty columns, which would be cut if it were taken; nothing is ever cut"),
+    (
+        "title too long",
+        "a block in flight, the deck that the faulty ones are made from",
+        "a title of more than eighty columns, which would be cut if it were taken; nothing is ever cut",
+    ),
     ("an include that is not there", "*END", "*INCLUDE\nnowhere.k\n*END"),
     ("an include without a name", "*END", "*INCLUDE\n*END"),
     ("an include of itself", "*END", "*INCLUDE\ndeck.k\n*END"),
     # parameters
     ("undefined parameter", "     &tend", "     &tond"),
     ("undefined parameter with a sign", "     &tend", "    -&tond"),
-    ("parameter used before", "*PARAMETER\n" + PARAMETER + "\n*CONTROL_TERMINATION\n     &tend",
-     "*CONTROL_TERMINATION\n     &tend"),
+    (
+        "parameter used before",
+        "*PARAMETER\n" + PARAMETER + "\n*CONTROL_TERMINATION\n     &tend",
+        "*CONTROL_TERMINATION\n     &tend",
+    ),
     ("parameter one column short", PARAMETER, "Rtend          0.01Rdt            1e-03"),
     ("parameter twice", "Rdt            1e-03", "Rtend          1e-03"),
     ("parameter without type", PARAMETER, "tend            0.01Rdt            1e-03"),
@@ -53,8 +64,13 @@ BASE_FAULTS = [
     ("parameter without value", "Rdt            1e-03", "Rdt                 "),
     ("integer parameter of a real", PARAMETER, PARAMETER + "Iset             1.5"),
     ("a fifth parameter", PARAMETER, PARAMETER + "Ra               1.0Rb               1.0R"),
-    ("word parameter with a sign", PARAMETER, PARAMETER + "Cscheme        THETA",
-     "     THETA       0.5", "  -&scheme       0.5"),
+    (
+        "word parameter with a sign",
+        PARAMETER,
+        PARAMETER + "Cscheme        THETA",
+        "     THETA       0.5",
+        "  -&scheme       0.5",
+    ),
     ("tab in a parameter card", PARAMETER, "Rtend\t0.01"),
     # numbers and columns
     ("letter in a number", NODE, "       2             1.O             0.0"),
@@ -87,28 +103,66 @@ BASE_FAULTS = [
     ("negative step", "Rdt            1e-03", "Rdt           -1e-03"),
     ("no end time", "Rtend           0.01", "Rtend            0.0"),
     ("steps without end", "Rdt            1e-03", "Rdt           1e-300"),
-    ("field not available", "*INITIAL_VELOCITY\n         1", "*INITIAL_VELOCITY\n         1         3"),
-    ("velocity across the plane", "       1.0\n*DATABASE", "       1.0       0.0       2.0\n*DATABASE"),
+    (
+        "field not available",
+        "*INITIAL_VELOCITY\n         1",
+        "*INITIAL_VELOCITY\n         1         3",
+    ),
+    (
+        "velocity across the plane",
+        "       1.0\n*DATABASE",
+        "       1.0       0.0       2.0\n*DATABASE",
+    ),
     ("node constraint on the node card", NODE, NODE + "             0.0       1"),
     ("explicit", "         1       &dt", "         0       &dt"),
-    ("static", "*CONTROL_IMPLICIT_DYNAMICS\n         1", "*CONTROL_IMPLICIT_DYNAMICS\n         0"),
-    ("HHT", "*CONTROL_IMPLICIT_DYNAMICS\n         1",
-     "*CONTROL_IMPLICIT_DYNAMICS\n" + "         1       0.5      0.25" + " " * 40 + "      -0.1"),
-    ("unstable beta", "*CONTROL_IMPLICIT_DYNAMICS\n         1",
-     "*CONTROL_IMPLICIT_DYNAMICS\n         1       0.5       0.1"),
+    (
+        "static",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         0",
+    ),
+    (
+        "HHT",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1",
+        "*CONTROL_IMPLICIT_DYNAMICS\n"
+        + "         1       0.5      0.25"
+        + " " * 40
+        + "      -0.1",
+    ),
+    (
+        "unstable beta",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1       0.5       0.1",
+    ),
     ("nonlinear", "*END", "*CONTROL_IMPLICIT_SOLUTION\n        12\n*END"),
     ("automatic steps", "*END", "*CONTROL_IMPLICIT_AUTO\n         1\n*END"),
-    ("mass scaling", "*END", "*CONTROL_TIMESTEP\n       0.0       0.9         0       0.0   -1.0e-6\n*END"),
+    (
+        "mass scaling",
+        "*END",
+        "*CONTROL_TIMESTEP\n       0.0       0.9         0       0.0   -1.0e-6\n*END",
+    ),
     ("friction of all contacts", "*END", "*CONTROL_CONTACT\n\n\n       0.3\n*END"),
     ("scheme", "     THETA       0.5", "      TETA       0.5"),
     ("scheme to come", "     THETA       0.5", "    MOREAU"),
     ("theta of newmark", "     THETA       0.5", "   NEWMARK       0.5"),
     ("theta out of range", "     THETA       0.5", "     THETA       0.4"),
-    ("restitution of theta", "     THETA       0.5", "     THETA       0.5       0.5       0.8"),
+    (
+        "restitution of theta",
+        "     THETA       0.5",
+        "     THETA       0.5       0.5       0.8",
+    ),
     ("mass", "*BIPACT_TIME", "*BIPACT_MASS\n    LUMPEN\n*BIPACT_TIME"),
-    ("courant of a lumped mass", "*BIPACT_TIME", "*BIPACT_MASS\n    LUMPED         0       1.0\n*BIPACT_TIME"),
-    ("dispersion and cut step", "*BIPACT_TIME", "*BIPACT_MASS\nDISPERSION\n*BIPACT_TIME", "     &tend",
-     "    0.0105"),
+    (
+        "courant of a lumped mass",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\n    LUMPED         0       1.0\n*BIPACT_TIME",
+    ),
+    (
+        "dispersion and cut step",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\nDISPERSION\n*BIPACT_TIME",
+        "     &tend",
+        "    0.0105",
+    ),
     ("contact solver", "*END", "*BIPACT_CONTACT\n    LEMKE\n*END"),
     ("tolerance", "*END", "*BIPACT_CONTACT\n      AUTO       0.5\n*END"),
     ("engine", "*END", "*BIPACT_SOLVER\n     MUMPS\n*END"),
@@ -117,60 +171,159 @@ BASE_FAULTS = [
     ("clockwise", ELEMENT, "       1       1       4       3       2       1"),
     ("crossed", ELEMENT, "       1       1       1       3       2       4"),
     ("degenerate", ELEMENT, "       1       1       1       2       2       4"),
-    ("clockwise triangle", ELEMENT, "       1       1       1       4       3\n       2       1       1       2       3"),
-    ("triangle with the mass DISPERSION", ELEMENT, "       1       1       1       2       3\n       2       1       1       3       4",
-     "*BIPACT_TIME", "*BIPACT_MASS\nDISPERSION\n*BIPACT_TIME"),
+    (
+        "clockwise triangle",
+        ELEMENT,
+        "       1       1       1       4       3\n       2       1       1       2       3",
+    ),
+    (
+        "triangle with the mass DISPERSION",
+        ELEMENT,
+        "       1       1       1       2       3\n       2       1       1       3       4",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\nDISPERSION\n*BIPACT_TIME",
+    ),
     ("quadratic element", ELEMENT, ELEMENT + "       5"),
-    ("node twice", "       4             0.0             1.0", "       3             0.0             1.0"),
+    (
+        "node twice",
+        "       4             0.0             1.0",
+        "       3             0.0             1.0",
+    ),
     ("element twice", ELEMENT, ELEMENT + "\n" + ELEMENT),
-    ("node without element", "       4             0.0             1.0",
-     "       4             0.0             1.0\n       5             7.0             1.0"),
-    ("node off the plane", "       4             0.0             1.0",
-     "       4             0.0             1.0             0.5"),
+    (
+        "node without element",
+        "       4             0.0             1.0",
+        "       4             0.0             1.0\n       5             7.0             1.0",
+    ),
+    (
+        "node off the plane",
+        "       4             0.0             1.0",
+        "       4             0.0             1.0             0.5",
+    ),
     ("no element", "*ELEMENT_SHELL\n" + ELEMENT + "\n", ""),
     ("undefined part", "       1       1       1       2", "       1       2       1       2"),
-    ("part without element", "*SECTION_SHELL", "spare\n         2         1         1\n*SECTION_SHELL"),
+    (
+        "part without element",
+        "*SECTION_SHELL",
+        "spare\n         2         1         1\n*SECTION_SHELL",
+    ),
     ("part twice", "*SECTION_SHELL", "spare\n         1         1         1\n*SECTION_SHELL"),
     ("beam of a part", "*PART", "*ELEMENT_BEAM\n       7       1       1       2\n*PART"),
-    ("hourglass of a part", "         1         1         1\n*SECTION", "         1         1         1                   3\n*SECTION"),
-    ("undefined section", "         1         1         1\n*SECTION", "         1         4         1\n*SECTION"),
-    ("undefined material", "         1         1         1\n*SECTION", "         1         1         4\n*SECTION"),
-    ("material twice", "*MAT_ELASTIC\n" + MATERIAL, "*MAT_001\n" + MATERIAL + "\n*MAT_ELASTIC\n" + MATERIAL),
-    ("element form", "         1        13                   4", "         1        16                   4"),
-    ("integration points", "         1        13                   4", "         1        13                   1"),
+    (
+        "hourglass of a part",
+        "         1         1         1\n*SECTION",
+        "         1         1         1                   3\n*SECTION",
+    ),
+    (
+        "undefined section",
+        "         1         1         1\n*SECTION",
+        "         1         4         1\n*SECTION",
+    ),
+    (
+        "undefined material",
+        "         1         1         1\n*SECTION",
+        "         1         1         4\n*SECTION",
+    ),
+    (
+        "material twice",
+        "*MAT_ELASTIC\n" + MATERIAL,
+        "*MAT_001\n" + MATERIAL + "\n*MAT_ELASTIC\n" + MATERIAL,
+    ),
+    (
+        "element form",
+        "         1        13                   4",
+        "         1        16                   4",
+    ),
+    (
+        "integration points",
+        "         1        13                   4",
+        "         1        13                   1",
+    ),
     ("unequal thickness", "       1.0\n*MAT", "       1.0       2.0\n*MAT"),
     # sets, motions, loads
     ("undefined set", "*INITIAL_VELOCITY\n         1", "*INITIAL_VELOCITY\n         7"),
-    ("undefined member", "         1         2         3         4", "         1         2         3        14"),
+    (
+        "undefined member",
+        "         1         2         3         4",
+        "         1         2         3        14",
+    ),
     ("set twice", "*INITIAL_VELOCITY", "*SET_NODE\n         1\n         1\n*INITIAL_VELOCITY"),
-    ("empty set", "         1         2         3         4\n*INIT", "         0         0         0         0\n*INIT"),
-    ("range backwards", "*END", "*SET_NODE_LIST_GENERATE\n         3\n         4         2\n*END"),
+    (
+        "empty set",
+        "         1         2         3         4\n*INIT",
+        "         0         0         0         0\n*INIT",
+    ),
+    (
+        "range backwards",
+        "*END",
+        "*SET_NODE_LIST_GENERATE\n         3\n         4         2\n*END",
+    ),
     ("segment inside", "*END", "*SET_SEGMENT\n         3\n         1         3\n*END"),
-    ("segment of three nodes", "*END", "*SET_SEGMENT\n         3\n         1         2         3         3\n*END"),
-    ("support of a moving node", "*END", "*BOUNDARY_SPC_NODE\n         1                   1\n*END"),
+    (
+        "segment of three nodes",
+        "*END",
+        "*SET_SEGMENT\n         3\n         1         2         3         3\n*END",
+    ),
+    (
+        "support of a moving node",
+        "*END",
+        "*BOUNDARY_SPC_NODE\n         1                   1\n*END",
+    ),
     ("support of nobody", "*END", "*BOUNDARY_SPC_SET\n         9                   1\n*END"),
     ("two velocities", "*END", "*INITIAL_VELOCITY_NODE\n         1       2.0\n*END"),
-    ("rotation about x", "*END", "*INITIAL_VELOCITY_GENERATION\n         1         2       5.0\n"
-     "       0.0       0.0       0.0       0.0       0.0       2.0\n*END"),
-    ("velocity of a part that is not there", "*END", "*INITIAL_VELOCITY_GENERATION\n         7         2\n\n*END"),
+    (
+        "rotation about x",
+        "*END",
+        "*INITIAL_VELOCITY_GENERATION\n         1         2       5.0\n"
+        "       0.0       0.0       0.0       0.0       0.0       2.0\n*END",
+    ),
+    (
+        "velocity of a part that is not there",
+        "*END",
+        "*INITIAL_VELOCITY_GENERATION\n         7         2\n\n*END",
+    ),
     ("curve missing", "*END", "*LOAD_BODY_Y\n         3       1.0\n*END"),
-    ("curve not increasing", "*END", "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
-     "                 0.0                 1.0\n*END"),
+    (
+        "curve not increasing",
+        "*END",
+        "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
+        "                 0.0                 1.0\n*END",
+    ),
     ("curve without points", "*END", "*DEFINE_CURVE\n         3\n*END"),
     ("load in z", "*END", "*LOAD_BODY_Z\n         3       1.0\n*END"),
     ("follower force", "*END", "*LOAD_NODE_POINT\n         1         4         3\n*END"),
-    ("acceleration for theta", "*END", "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
-     "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         1         1         3\n*END"),
-    ("motion of a fixed direction", "*END", "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
-     "*BOUNDARY_SPC_NODE\n         1                             1\n"
-     "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         2         2         3\n*END"),
-    ("two motions", "*END", "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
-     "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         2         2         3\n"
-     "         1         2         2         3\n*END"),
-    ("motion that contradicts a velocity", "*END", "*DEFINE_CURVE\n         3\n                 0.0                 5.0\n"
-     "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         1         0         3\n*END"),
-    ("motion that dies before its birth", "*END", "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
-     "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         2         2         3                        0.001     0.002\n*END"),
+    (
+        "acceleration for theta",
+        "*END",
+        "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
+        "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         1         1         3\n*END",
+    ),
+    (
+        "motion of a fixed direction",
+        "*END",
+        "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
+        "*BOUNDARY_SPC_NODE\n         1                             1\n"
+        "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         2         2         3\n*END",
+    ),
+    (
+        "two motions",
+        "*END",
+        "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
+        "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         2         2         3\n"
+        "         1         2         2         3\n*END",
+    ),
+    (
+        "motion that contradicts a velocity",
+        "*END",
+        "*DEFINE_CURVE\n         3\n                 0.0                 5.0\n"
+        "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         1         0         3\n*END",
+    ),
+    (
+        "motion that dies before its birth",
+        "*END",
+        "*DEFINE_CURVE\n         3\n                 0.0                 1.0\n"
+        "*BOUNDARY_PRESCRIBED_MOTION_NODE\n         1         2         2         3                        0.001     0.002\n*END",
+    ),
     ("history of nobody", "*END", "*DATABASE_HISTORY_NODE\n        77\n*END"),
     ("history of no element", "*END", "*DATABASE_HISTORY_SHELL\n        77\n*END"),
     ("several at once", "     0.001    1000.0       0.3", "      zero   -1000.0       0.7"),
@@ -178,8 +331,13 @@ BASE_FAULTS = [
 
 CONTACT = "        11        12"
 BLOCK_FAULTS = [
-    ("initial penetration", "       5           1.005", "       5             0.9",
-     "       8           1.005", "       8             0.9"),
+    (
+        "initial penetration",
+        "       5           1.005",
+        "       5             0.9",
+        "       8           1.005",
+        "       8             0.9",
+    ),
     ("undefined side", CONTACT, "        11        19"),
     ("undefined node set side", CONTACT, "       -91        12"),
     ("a body with itself", CONTACT, "        11        11"),
@@ -187,34 +345,74 @@ BLOCK_FAULTS = [
     ("friction that decays", CONTACT, CONTACT + " " * 20 + "       0.3       0.1       1.0"),
     ("negative friction", CONTACT, CONTACT + " " * 20 + "      -0.3"),
     ("viscous friction", CONTACT + "\n", CONTACT + "\n\n       1.0\n"),
-    ("bad id", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE_ID\n        1x\n"),
-    ("id twice", "*END", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE_ID\n         1\n" + CONTACT + "\n*END"),
+    (
+        "bad id",
+        "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n",
+        "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE_ID\n        1x\n",
+    ),
+    (
+        "id twice",
+        "*END",
+        "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE_ID\n         1\n" + CONTACT + "\n*END",
+    ),
     ("pair of no contact", "*END", "*BIPACT_PAIR\n         5         A\n*END"),
     ("pair with both sides", "*END", "*BIPACT_PAIR\n         1      BOTH\n*END"),
     ("pair twice", "*END", "*BIPACT_PAIR\n         1         A\n         1         B\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
-    ("wall without normal", "*END", "*RIGIDWALL_PLANAR\n\n       3.0                           3.0\n*END"),
-    ("wall in a body", "*END", "*RIGIDWALL_PLANAR\n\n       1.5                           0.0\n*END"),
+    (
+        "wall without normal",
+        "*END",
+        "*RIGIDWALL_PLANAR\n\n       3.0                           3.0\n*END",
+    ),
+    (
+        "wall in a body",
+        "*END",
+        "*RIGIDWALL_PLANAR\n\n       1.5                           0.0\n*END",
+    ),
     ("wall of no nodes", "*END", "*RIGIDWALL_PLANAR\n        33\n       3.0\n*END"),
-    ("welding wall", "*END", "*RIGIDWALL_PLANAR\n\n       3.0                           0.0                           2.0\n*END"),
+    (
+        "welding wall",
+        "*END",
+        "*RIGIDWALL_PLANAR\n\n       3.0                           0.0                           2.0\n*END",
+    ),
     ("moving wall", "*END", "*RIGIDWALL_PLANAR_MOVING\n\n       3.0\n*END"),
     ("self contact", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE\n        11\n*END"),
 ]
 
 # name, main deck, other files, options
 FILE_FAULTS = [
-    ("fault in an include", BASES["base"].replace("*END", "*INCLUDE\nmore.k\n*END"),
-     {"more.k": "*INCLUDE\ndeeper.k\n*END\n", "deeper.k": "*DATABASE_NODOUT\n     -0.1\n*END\n"}, []),
-    ("defined in two files", BASES["base"].replace("*END", "*INCLUDE\nmore.k\n*END"),
-     {"more.k": "*NODE\n" + NODE + "\n*END\n"}, []),
-    ("includes in a circle", BASES["base"].replace("*END", "*INCLUDE\nmore.k\n*END"),
-     {"more.k": "*INCLUDE\nmore.k\n*END\n"}, []),
+    (
+        "fault in an include",
+        BASES["base"].replace("*END", "*INCLUDE\nmore.k\n*END"),
+        {
+            "more.k": "*INCLUDE\ndeeper.k\n*END\n",
+            "deeper.k": "*DATABASE_NODOUT\n     -0.1\n*END\n",
+        },
+        [],
+    ),
+    (
+        "defined in two files",
+        BASES["base"].replace("*END", "*INCLUDE\nmore.k\n*END"),
+        {"more.k": "*NODE\n" + NODE + "\n*END\n"},
+        [],
+    ),
+    (
+        "includes in a circle",
+        BASES["base"].replace("*END", "*INCLUDE\nmore.k\n*END"),
+        {"more.k": "*INCLUDE\nmore.k\n*END\n"},
+        [],
+    ),
     ("-D of a name that is not there", BASES["base"], {}, ["-D", "tond=1.0"]),
     ("-D of no number", BASES["base"], {}, ["-D", "tend=soon"]),
     ("-D out of range", BASES["base"], {}, ["-D", "dt=-1.0"]),
     ("an empty deck", "", {}, []),
     ("no deck at all", "\0\1\2\3 these are no cards", {}, []),
-    ("more than twenty problems", BASES["base"].replace("*END", "*NODE\n" + 30 * "       x\n" + "*END"), {}, []),
+    (
+        "more than twenty problems",
+        BASES["base"].replace("*END", "*NODE\n" + 30 * "       x\n" + "*END"),
+        {},
+        [],
+    ),
 ]
 
 
@@ -234,19 +432,30 @@ def message(name, text, folder, files=(), options=()):
         with open(os.path.join(folder, path), "w", newline="", encoding="utf-8") as out:
             out.write(content)
     shutil.rmtree(os.path.join(folder, "out"), ignore_errors=True)
-    done = subprocess.run([os.environ["BIPACT"], deck, "-o", os.path.join(folder, "out")]
-                          + list(options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          errors="replace")
+    done = subprocess.run(
+        [os.environ["BIPACT"], deck, "-o", os.path.join(folder, "out")] + list(options),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+    )
     wrote = os.path.exists(os.path.join(folder, "out"))
-    return "== %s\nexit %d%s\n%s" % (name, done.returncode, ", WROTE FILES" if wrote else "",
-                                    done.stderr.replace(folder + "/", ""))
+    return "== %s\nexit %d%s\n%s" % (
+        name,
+        done.returncode,
+        ", WROTE FILES" if wrote else "",
+        done.stderr.replace(folder + "/", ""),
+    )
 
 
 def main():
     folder = os.environ["TMP"]
     found = [message(f[0], changed(BASES["base"], f), folder) for f in BASE_FAULTS]
     found += [message(f[0], changed(BASES["two_blocks"], f), folder) for f in BLOCK_FAULTS]
-    found += [message(name, text, folder, files, options) for name, text, files, options in FILE_FAULTS]
+    found += [
+        message(name, text, folder, files, options)
+        for name, text, files, options in FILE_FAULTS
+    ]
     path = os.path.join(HERE, "expected.txt")
     if "--write" in sys.argv:
         with open(path, "w") as out:

@@ -1,5 +1,6 @@
 """Runs the decks of input/lessons and checks what each of them says to expect:
 $ expect: TABLE COLUMN last VALUE +- TOLERANCE, or TABLE COLUMN max VALUE at least."""
+
 import glob
 import os
 import re
@@ -20,7 +21,9 @@ def main():
         folder = os.path.join(scenes.TMP, name)
         code, errors, _ = bipact(deck, folder, "--quiet")
         check(code == 0, "%s: exit code %d %s" % (name, code, errors))
-        echoed, again = os.path.join(folder, "deck.echo.k"), os.path.join(scenes.TMP, name + ".again")
+        echoed, again = os.path.join(folder, "deck.echo.k"), os.path.join(
+            scenes.TMP, name + ".again"
+        )
         code, errors, _ = bipact(echoed, again, "--quiet")
         check(code == 0, "%s: echo deck: exit code %d %s" % (name, code, errors))
         for path in glob.glob(os.path.join(folder, "*.tab")):

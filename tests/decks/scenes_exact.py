@@ -1,5 +1,6 @@
 """Walls, gravity, friction on a plane, chains, grazing contact, against exact solutions.
 Every bound has its reason beside it."""
+
 import os
 import sys
 
@@ -29,18 +30,31 @@ def closes(name, folder):
 
 
 def wall():
-    """A bar on a rigid wall is half of the two-bar impact with twice the gap: the same displacement to
-    round-off (1e-9 as for any other change of round-off; both masses, aligned or not), and exact with
-    the mass DISPERSION at Courant number 1."""
-    for name, mass, redist, touch in (("consistent", "CONSISTENT", 0, 0.5), ("lumped", "LUMPED", 0, 0.25),
-                                      ("massless", "DISPERSION", 1, 0.5)):
+    """A bar on a rigid wall is half of the two-bar impact with twice the gap: the same
+    displacement to round-off (1e-9 as for any other change of round-off; both masses, aligned
+    or not), and exact with the mass DISPERSION at Courant number 1."""
+    for name, mass, redist, touch in (
+        ("consistent", "CONSISTENT", 0, 0.5),
+        ("lumped", "LUMPED", 0, 0.25),
+        ("massless", "DISPERSION", 1, 0.5),
+    ):
         meta, folder = run(name, "wall", n=40, mass=mass, redist=redist, touch=touch)
         closes(name, folder)
-        bars, other = scenes.bars(name + "_bars", nx=40, courant=0.5, gap=2.0 * meta["gap"], mass=mass,
-                                  redist=redist, tend=0.04, output=meta["dt"])
+        bars, other = scenes.bars(
+            name + "_bars",
+            nx=40,
+            courant=0.5,
+            gap=2.0 * meta["gap"],
+            mass=mass,
+            redist=redist,
+            tend=0.04,
+            output=meta["dt"],
+        )
         a = table(folder, "nodout", node=meta["face1"][0])["ux"]
         b = table(other, "nodout", node=meta["face1"][0])["ux"]
-        at_most(np.abs(a - b[:len(a)]).max() / np.abs(a).max(), 1.0e-9, name + ": wall = two bars")
+        at_most(
+            np.abs(a - b[: len(a)]).max() / np.abs(a).max(), 1.0e-9, name + ": wall = two bars"
+        )
     for n in (10, 100):
         meta, folder = run("exact", "wall", n=n, mass="DISPERSION", courant=1.0)
         found = compare.measure(folder, meta)
@@ -49,17 +63,19 @@ def wall():
         at_most(abs(found["dE_end"]), 1.0e-11, "n %d: energy" % n)
     meta, folder = run("triangles", "wall", n=100, ny=2, triangles=1, touch=0.5)
     closes("triangles", folder)
-    # Constant-strain triangles cost about as much error as quadrilaterals of this size in 1-D motion:
-    # 6e-3 for these at 100 elements; a factor of two covers the diagonal pattern at the face.
+    # Constant-strain triangles cost about as much error as quadrilaterals of this size in 1-D
+    # motion: 6e-3 for these at 100 elements; a factor of two covers the diagonal pattern at the
+    # face.
     at_most(compare.measure(folder, meta)["err"], 1.2e-2, "triangles: displacement")
 
 
 def bouncing():
-    """The bar of Doyen, Ern & Piperno 2011. Mass DISPERSION at Courant number 1: exact but for round-off,
-    which every impact multiplies by 5 (a touch that is off by e releases off by 2 e, twice a period): 1e-14
-    after three periods is 2e-10, the bound 1e-8. Other masses over ten periods: energy only falls. With
-    the consistent mass at Courant 0.9 it is 0.9926 after one period, as an independent 1-D code has it;
-    later the phase of the touch decides, and 10 % of the loss is left open."""
+    """The bar of Doyen, Ern & Piperno 2011. Mass DISPERSION at Courant number 1: exact but for
+    round-off, which every impact multiplies by 5 (a touch that is off by e releases off by 2 e,
+    twice a period): 1e-14 after three periods is 2e-10, the bound 1e-8. Other masses over ten
+    periods: energy only falls. With the consistent mass at Courant 0.9 it is 0.9926 after one
+    period, as an independent 1-D code has it; later the phase of the touch decides, and 10 % of
+    the loss is left open."""
     meta, folder = run("exact", "bouncing", n=30, courant=1.0, mass="DISPERSION", periods=3)
     exact = meta["exact"]
     rows = table(folder, "nodout", node=meta["face"][0])
@@ -72,7 +88,9 @@ def bouncing():
     at_most(np.abs(force["fx"] - mid)[1:].max() / mid.max(), 1.0e-6, "force of every step")
     for mass, redist in (("CONSISTENT", 0), ("LUMPED", 0), ("DISPERSION", 1)):
         name = "%s %d" % (mass, redist)
-        meta, folder = run("ten", "bouncing", n=100, courant=0.9, mass=mass, redist=redist, periods=10)
+        meta, folder = run(
+            "ten", "bouncing", n=100, courant=0.9, mass=mass, redist=redist, periods=10
+        )
         rows = closes(name, folder)
         lost = (rows["contact"] + rows["algorithmic"]) / exact.energy
         check((np.diff(lost) >= -1.0e-12).all(), name + ": impacts only take energy")
@@ -83,21 +101,32 @@ def bouncing():
 
 
 def sliding():
-    """A block slides to rest: see make_scenes.sliding for the bound, v 4 H/c on the place (the normal
-    force oscillates about m g with that period), and mu m g x place for the friction work. While all of
-    it slides |f_t| = mu f_n in every step."""
+    """A block slides to rest: see make_scenes.sliding for the bound, v 4 H/c on the place (the
+    normal force oscillates about m g with that period), and mu m g x place for the friction
+    work. While all of it slides |f_t| = mu f_n in every step."""
     for scheme, theta in (("THETA", 0.5), ("THETA", 0.55)):
         name = "sliding, theta %g" % theta
         meta, folder = run("slide", "sliding", scheme=scheme, theta=theta)
         rows = closes(name, folder)
         parts = table(folder, "matsum")
-        place = np.concatenate(([0.0], np.cumsum(0.5 * (parts["vx"][1:] + parts["vx"][:-1])
-                                                 * np.diff(parts["time"]))))
+        place = np.concatenate(
+            (
+                [0.0],
+                np.cumsum(0.5 * (parts["vx"][1:] + parts["vx"][:-1]) * np.diff(parts["time"])),
+            )
+        )
         exact = SlidingBlock(meta["v"], meta["mu"], meta["g"], meta["mass"])
-        at_most(np.abs(place - exact.place(parts["time"])).max(), meta["v"] * meta["bounce"], name + ": place")
+        at_most(
+            np.abs(place - exact.place(parts["time"])).max(),
+            meta["v"] * meta["bounce"],
+            name + ": place",
+        )
         work = exact.friction_work(rows["time"])
-        at_most(np.abs(rows["friction"] - work).max() / work[-1], meta["bounce"] / exact.stop * 2.0,
-                name + ": friction work")
+        at_most(
+            np.abs(rows["friction"] - work).max() / work[-1],
+            meta["bounce"] / exact.stop * 2.0,
+            name + ": friction work",
+        )
         force = table(folder, "rwforc")
         sliding_only = (force["nslip"] > 0) & (force["nstick"] == 0)
         check(sliding_only.sum() > 100, name + ": it slides for a while")
@@ -106,30 +135,37 @@ def sliding():
 
 
 def incline():
-    """Gravity at 0.9 and 1.2 of the friction angle, grown over 0.2: it sticks and moves by its shear
-    only, g_t rho H^2/G at most twice (sudden load); or it slides, with (ratio - 1) mu g after the ramp.
-    It starts to slip at the end of the ramp or before: within one period of shear waves, 4 H/c_s."""
+    """Gravity at 0.9 and 1.2 of the friction angle, grown over 0.2: it sticks and moves by its
+    shear only, g_t rho H^2/G at most twice (sudden load); or it slides, with (ratio - 1) mu g
+    after the ramp. It starts to slip at the end of the ramp or before: within one period of
+    shear waves, 4 H/c_s."""
     meta, folder = run("stick", "incline", ratio=0.9)
     closes("stick", folder)
     parts = table(folder, "matsum")
     moved = np.cumsum(parts["vx"][1:] * np.diff(parts["time"]))
     at_most(np.abs(moved).max(), 2.0 * 0.9 * 3.0 * 0.25 / 5.0e4, "sticking block: its shear")
-    # An elastic foot slips where the pressure is low, at its corners, long before the block does.
+    # An elastic foot slips where the pressure is low, at its corners, long before the block
+    # does.
     check(table(folder, "rwforc")["nstick"][-1] >= 3, "most of the foot sticks")
     meta, folder = run("slip", "incline", ratio=1.2)
     closes("slip", folder)
     parts = table(folder, "matsum")
     t, v = parts["time"], parts["vx"]
-    # While the ramp grows all is in proportion: it slips from the start with (ratio - 1) mu g(t).
+    # While the ramp grows all is in proportion: it slips from the start with (ratio - 1) mu
+    # g(t).
     ramp, a = meta["ramp"], 0.2 * 0.3 * 10.0
-    exact = np.where(t < ramp, 0.5 * a * t ** 2 / ramp, a * (t - 0.5 * ramp))
-    at_most(np.abs(v - exact).max() / exact[-1], 0.02, "sliding block: velocity (2 %: 4 H/c_s over the run)")
+    exact = np.where(t < ramp, 0.5 * a * t**2 / ramp, a * (t - 0.5 * ramp))
+    at_most(
+        np.abs(v - exact).max() / exact[-1],
+        0.02,
+        "sliding block: velocity (2 %: 4 H/c_s over the run)",
+    )
 
 
 def pushed():
-    """A force that grows at 5 a second against mu m g = 1: it starts 0.2 after the ramp of gravity, then
-    m v = 5 (t - t_s)^2/2. The foot slips first where the pressure is low, and the waves of the start
-    decay slowly: 2 % of the velocity at the end."""
+    """A force that grows at 5 a second against mu m g = 1: it starts 0.2 after the ramp of
+    gravity, then m v = 5 (t - t_s)^2/2. The foot slips first where the pressure is low, and the
+    waves of the start decay slowly: 2 % of the velocity at the end."""
     meta, folder = run("push", "pushed")
     closes("push", folder)
     parts = table(folder, "matsum")
@@ -142,14 +178,18 @@ def pushed():
 
 
 def chains():
-    """Equal bars in a row: the pulse passes, the last bar leaves with all the momentum. Exact at Courant
-    number 1 with the mass DISPERSION: each bar in turn stops without stress."""
+    """Equal bars in a row: the pulse passes, the last bar leaves with all the momentum. Exact
+    at Courant number 1 with the mass DISPERSION: each bar in turn stops without stress."""
     for bars in (3, 5):
         meta, folder = run("chain%d" % bars, "chain", bars=bars, courant=1.0, mass="DISPERSION")
         name = "chain of %d" % bars
         rows = closes(name, folder)
-        at_most(np.abs(rows["momx"] / rows["momx"][0] - 1.0).max(), 1.0e-12, name + ": momentum")
-        at_most(np.abs(rows["total"] / rows["total"][0] - 1.0).max(), 1.0e-11, name + ": energy")
+        at_most(
+            np.abs(rows["momx"] / rows["momx"][0] - 1.0).max(), 1.0e-12, name + ": momentum"
+        )
+        at_most(
+            np.abs(rows["total"] / rows["total"][0] - 1.0).max(), 1.0e-11, name + ": energy"
+        )
         for part in range(1, bars + 1):
             v = table(folder, "matsum", part=part)["vx"][-1]
             at_most(abs(v - (part == bars)), 1.0e-10, "%s: velocity of bar %d" % (name, part))
@@ -163,30 +203,49 @@ def grazing():
                 name = "gap %g, v %g, mu %g" % (gap, v, mu)
                 _, folder = run("drift", "drift", gap=gap, v=v, mu=mu)
                 force = table(folder, "rwforc")
-                # Round-off of gliding makes gaps of 1e-17: a force of rho V/h^2 times that at most.
+                # Round-off of gliding makes gaps of 1e-17: a force of rho V/h^2 times that at
+                # most.
                 at_most(np.abs(force["fn"]).max(), 1.0e-9, name + ": normal force")
                 rows = closes(name, folder)
                 at_most(abs(rows["friction"][-1]), 1.0e-12, name + ": friction work")
 
 
 def placements():
-    """The scenes with walls, friction and triangles turned, and mirrored with their meshes: energies and
-    works to 1e-9 of the largest (invariance.py says why). The foot of a sliding block chatters, and
-    round-off grows from 1e-15 to 1e-8 in 500 steps: 0.1 is a time before that."""
-    for scene, data in (("wall", dict(n=30, touch=0.5)), ("wall", dict(n=30, ny=2, triangles=1, touch=0.5)),
-                        ("sliding", dict(tend=0.2)), ("sliding", dict(tend=0.1, triangles=1)),
-                        ("pushed", dict(tend=0.5)), ("chain", dict(n=10))):
+    """The scenes with walls, friction and triangles turned, and mirrored with their meshes:
+    energies and works to 1e-9 of the largest (invariance.py says why). The foot of a sliding
+    block chatters, and round-off grows from 1e-15 to 1e-8 in 500 steps: 0.1 is a time before
+    that."""
+    for scene, data in (
+        ("wall", dict(n=30, touch=0.5)),
+        ("wall", dict(n=30, ny=2, triangles=1, touch=0.5)),
+        ("sliding", dict(tend=0.2)),
+        ("sliding", dict(tend=0.1, triangles=1)),
+        ("pushed", dict(tend=0.5)),
+        ("chain", dict(n=10)),
+    ):
         base = None
-        for place in (dict(), dict(angle=17.0), dict(angle=90.0), dict(angle=233.0), dict(mirror=1)):
+        for place in (
+            dict(),
+            dict(angle=17.0),
+            dict(angle=90.0),
+            dict(angle=233.0),
+            dict(mirror=1),
+        ):
             meta, folder = run("placed", scene, **dict(data, **place))
             rows = table(folder, "glstat")
             name = "%s %s %s" % (scene, data, place)
             if base is None:
                 base = rows
                 continue
-            largest = max(np.abs(base[c]).max() for c in ("kinetic", "internal", "external", "friction"))
+            largest = max(
+                np.abs(base[c]).max() for c in ("kinetic", "internal", "external", "friction")
+            )
             for column in ("kinetic", "internal", "external", "friction", "contact"):
-                at_most(np.abs(rows[column] - base[column]).max() / largest, 1.0e-9, name + ": " + column)
+                at_most(
+                    np.abs(rows[column] - base[column]).max() / largest,
+                    1.0e-9,
+                    name + ": " + column,
+                )
 
 
 if __name__ == "__main__":

@@ -3,11 +3,12 @@
 
     fuzz.py [--count N] [--seed S] [--jobs J] [--keep DIR]
 
-Every mutant is made from (seed, its number) alone, so a failure can be made again. What must hold:
-no crash and no run-time error of Fortran, exit code 0 to 3, no file after a deck error (exit 2), no
-NaN or infinity in a table, an end within five seconds (a mutant that asks for very many steps is
-only read and checked then).
+Every mutant is made from (seed, its number) alone, so a failure can be made again. What must
+hold: no crash and no run-time error of Fortran, exit code 0 to 3, no file after a deck error
+(exit 2), no NaN or infinity in a table, an end within five seconds (a mutant that asks for very
+many steps is only read and checked then).
 """
+
 import argparse
 import multiprocessing
 import os
@@ -20,10 +21,52 @@ import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 LIMIT = 5.0
-NUMBERS = ["0", "-0", "1", "-1", "2147483647", "2147483648", "-2147483648", "1e308", "1e309", "-1e308",
-           "1e-308", "1e-320", "5e-324", "0.0", "1.0-3", "1d5", "nan", "inf", "1e", ".", "+", "-", "&",
-           "&x", "-&x", "1 0", "1/2", "3*1", "1.5", "99999999999999999999", "1e-5", "1e5", "0.5", "2", "3",
-           "THETA", "NEWMARK", "LUMPED", "DISPERSION", "AUTO", "1e20", "1e-20", "12", "13"]
+NUMBERS = [
+    "0",
+    "-0",
+    "1",
+    "-1",
+    "2147483647",
+    "2147483648",
+    "-2147483648",
+    "1e308",
+    "1e309",
+    "-1e308",
+    "1e-308",
+    "1e-320",
+    "5e-324",
+    "0.0",
+    "1.0-3",
+    "1d5",
+    "nan",
+    "inf",
+    "1e",
+    ".",
+    "+",
+    "-",
+    "&",
+    "&x",
+    "-&x",
+    "1 0",
+    "1/2",
+    "3*1",
+    "1.5",
+    "99999999999999999999",
+    "1e-5",
+    "1e5",
+    "0.5",
+    "2",
+    "3",
+    "THETA",
+    "NEWMARK",
+    "LUMPED",
+    "DISPERSION",
+    "AUTO",
+    "1e20",
+    "1e-20",
+    "12",
+    "13",
+]
 BYTES = b"\t\r\n $*,&+-.0123456789eEdDnNaA\x00\x7f\xe9\xff\"'"
 KEYWORDS = []
 
@@ -49,7 +92,7 @@ def mutate_bytes(rng, text):
         if kind == 0 and at < len(data):
             data[at] = rng.choice(BYTES) if rng.random() < 0.8 else rng.randrange(256)
         elif kind == 1 and at < len(data):
-            del data[at:at + rng.choice((1, 1, 2, 10))]
+            del data[at : at + rng.choice((1, 1, 2, 10))]
         else:
             data[at:at] = bytes([rng.choice(BYTES)]) * rng.choice((1, 1, 1, 3, 90, 300))
     return bytes(data)
@@ -77,7 +120,7 @@ def mutate_field(rng, text):
     else:
         width = rng.choice((8, 10, 10, 16))
         at = width * rng.randrange(0, max(1, (len(lines[k]) + width) // width))
-        lines[k] = (lines[k].ljust(at)[:at] + value.rjust(width)[:width] + lines[k][at + width:])
+        lines[k] = lines[k].ljust(at)[:at] + value.rjust(width)[:width] + lines[k][at + width :]
     return b"\n".join(lines)
 
 
@@ -104,7 +147,7 @@ def mutate_cards(rng, text):
     elif kind == 2:
         lines[k], lines[j] = lines[j], lines[k]
     elif kind == 3:
-        lines[k] = lines[k][:rng.randrange(len(lines[k]) + 1)]
+        lines[k] = lines[k][: rng.randrange(len(lines[k]) + 1)]
     elif kind == 4:
         lines[k] = lines[k] + b" " * rng.randrange(90) + rng.choice(NUMBERS).encode()
     else:
@@ -119,18 +162,23 @@ def mutate_keyword(rng, text):
     if kind == 0:
         lines[k] = b"*" + rng.choice(KEYWORDS)
     elif kind == 1:
-        lines[k] += rng.choice((b"_TITLE", b"_ID", b"+", b"-", b"_LIST", b"_GENERATE", b"_SET", b" x"))
+        lines[k] += rng.choice(
+            (b"_TITLE", b"_ID", b"+", b"-", b"_LIST", b"_GENERATE", b"_SET", b" x")
+        )
     elif kind == 2:
         lines[k:k] = [b"*" + rng.choice(KEYWORDS), rng.choice(NUMBERS).encode().rjust(10)]
     else:
-        lines[k] = lines[k][:rng.randrange(1, len(lines[k]) + 1)]
+        lines[k] = lines[k][: rng.randrange(1, len(lines[k]) + 1)]
     return b"\n".join(lines)
 
 
 def mutate_include(rng, text):
     """An include: of itself, of nothing, of a folder, of another deck."""
     lines, k = lines_of(rng, text, lambda line: line[:1] == b"*")
-    lines[k:k] = [b"*INCLUDE", rng.choice((b"deck.k", b"none.k", b".", b"/", b"", b"other.k", b"a +"))]
+    lines[k:k] = [
+        b"*INCLUDE",
+        rng.choice((b"deck.k", b"none.k", b".", b"/", b"", b"other.k", b"a +")),
+    ]
     return b"\n".join(lines)
 
 
@@ -138,7 +186,7 @@ def mutate_whole(rng, text):
     """The whole file: cut, carriage returns, a mark, nothing, twice."""
     kind = rng.randrange(6)
     if kind == 0:
-        return text[:rng.randrange(len(text) + 1)]
+        return text[: rng.randrange(len(text) + 1)]
     if kind == 1:
         return text.replace(b"\n", b"\r\n")
     if kind == 2:
@@ -150,8 +198,19 @@ def mutate_whole(rng, text):
     return text.replace(b"*KEYWORD", b"*KEYWORD LONG=Y")
 
 
-MUTATIONS = (mutate_bytes, mutate_field, mutate_field, mutate_field, mutate_number, mutate_number,
-             mutate_cards, mutate_cards, mutate_keyword, mutate_include, mutate_whole)
+MUTATIONS = (
+    mutate_bytes,
+    mutate_field,
+    mutate_field,
+    mutate_field,
+    mutate_number,
+    mutate_number,
+    mutate_cards,
+    mutate_cards,
+    mutate_keyword,
+    mutate_include,
+    mutate_whole,
+)
 
 
 def mutant(seed, number, decks):
@@ -166,8 +225,14 @@ def mutant(seed, number, decks):
 def run(arguments, folder):
     """(exit code or None after the limit, messages)."""
     try:
-        done = subprocess.run(arguments, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, timeout=LIMIT)
+        done = subprocess.run(
+            arguments,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            timeout=LIMIT,
+        )
         return done.returncode, done.stderr
     except subprocess.TimeoutExpired:
         return None, b""
@@ -183,8 +248,12 @@ def judge(program, folder):
         if code is None:
             return "no end within %g s, even with --check" % LIMIT, code
         return (None if code == 0 else "no end within %g s" % LIMIT), "long"
-    if b"ortran runtime error" in errors or b"Backtrace" in errors or b"Sanitizer" in errors \
-            or b"runtime error:" in errors:
+    if (
+        b"ortran runtime error" in errors
+        or b"Backtrace" in errors
+        or b"Sanitizer" in errors
+        or b"runtime error:" in errors
+    ):
         return "run-time error", code
     if code not in (0, 1, 2, 3):
         return "exit code %d" % code, code
@@ -204,7 +273,8 @@ def judge(program, folder):
 
 
 def work(task):
-    """Runs mutants first, first + step, ... in a folder of their own; returns (codes, failures)."""
+    """Runs mutants first, first + step, ... in a folder of their own; returns (codes,
+    failures)."""
     first, step, count, seed, program, keep = task
     decks, codes, failures = corpus(), {}, []
     with tempfile.TemporaryDirectory() as folder:
@@ -220,12 +290,17 @@ def work(task):
                 failures.append((number, wrong))
                 shutil.rmtree(os.path.join(folder, "out"), ignore_errors=True)
                 if keep:
-                    shutil.copy(os.path.join(folder, "deck.k"), os.path.join(keep, "mutant%d.k" % number))
+                    shutil.copy(
+                        os.path.join(folder, "deck.k"),
+                        os.path.join(keep, "mutant%d.k" % number),
+                    )
     return codes, failures
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--count", type=int, default=20000, help="mutants (20000)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
@@ -239,7 +314,9 @@ def main():
         os.makedirs(a.keep, exist_ok=True)
     start = time.time()
     with multiprocessing.Pool(a.jobs) as pool:
-        parts = pool.map(work, [(k, a.jobs, a.count, a.seed, program, a.keep) for k in range(a.jobs)])
+        parts = pool.map(
+            work, [(k, a.jobs, a.count, a.seed, program, a.keep) for k in range(a.jobs)]
+        )
     codes, failures = {}, []
     for part_codes, part_failures in parts:
         failures += part_failures
@@ -247,8 +324,14 @@ def main():
             codes[code] = codes.get(code, 0) + n
     for number, wrong in sorted(failures)[:20]:
         print("FAIL seed %d mutant %d: %s" % (a.seed, number, wrong))
-    print("%d mutants in %.0f s; exit codes %s" % (a.count, time.time() - start, ", ".join(
-        "%s: %d" % item for item in sorted(codes.items(), key=str))))
+    print(
+        "%d mutants in %.0f s; exit codes %s"
+        % (
+            a.count,
+            time.time() - start,
+            ", ".join("%s: %d" % item for item in sorted(codes.items(), key=str)),
+        )
+    )
     print("%d passed, %d failed" % (a.count - len(failures), len(failures)))
     return 1 if failures else 0
 

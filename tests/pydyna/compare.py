@@ -1,6 +1,7 @@
-"""PyDyna reads every deck of input/ and its echo deck, and finds equal values in both: numbers that
-stand in the deck are those that bipact understood. Only own keywords (and two short names of sets,
-which PyDyna keeps as text) may stay unread."""
+"""PyDyna reads every deck of input/ and its echo deck, and finds equal values in both: numbers
+that stand in the deck are those that bipact understood. Only own keywords (and two short names
+of sets, which PyDyna keeps as text) may stay unread."""
+
 import glob
 import logging
 import math
@@ -33,7 +34,9 @@ def read(path):
         deck.loads(file.read())
     deck = deck.expand(cwd=os.path.dirname(path))
     for text in deck.string_keywords:
-        check(text.startswith(UNREAD), "%s: PyDyna leaves %s unread" % (path, text.split("\n")[0]))
+        check(
+            text.startswith(UNREAD), "%s: PyDyna leaves %s unread" % (path, text.split("\n")[0])
+        )
     return [k for k in deck.keywords if type(k).__name__ not in SKIPPED]
 
 
@@ -58,11 +61,14 @@ def values(keyword):
             for row, x in enumerate(value):
                 if isinstance(x, (int, float)):
                     found["%s.%d" % (name, row)] = x
-    return {n: v for n, v in found.items() if n not in ("user_comment", "format", "included_from")}
+    return {
+        n: v for n, v in found.items() if n not in ("user_comment", "format", "included_from")
+    }
 
 
 def equal(a, b):
-    """A blank field is 0 to PyDyna where the whole card is blank, and nothing where it is not."""
+    """A blank field is 0 to PyDyna where the whole card is blank, and nothing where it is
+    not."""
     if a == 0 and missing(b):
         return True
     if isinstance(a, (int, float)) and isinstance(b, (int, float)):
@@ -75,21 +81,28 @@ def main():
     for path in sorted(glob.glob(os.path.join(ROOT, "input", "*", "*.k"))):
         name = os.path.relpath(path, ROOT)
         if "*CONTROL_TERMINATION" not in open(path).read():
-            continue    # a mesh that others include
+            continue  # a mesh that others include
         out = os.path.join(TMP, name.replace("/", "_"))
-        done = subprocess.run([BIPACT, path, "-o", out, "--quiet"], stderr=subprocess.PIPE, text=True)
+        done = subprocess.run(
+            [BIPACT, path, "-o", out, "--quiet"], stderr=subprocess.PIPE, text=True
+        )
         check(done.returncode == 0, name + ": " + done.stderr)
         ours, echo = read(path), read(os.path.join(out, "deck.echo.k"))
-        check([type(k).__name__ for k in ours] == [type(k).__name__ for k in echo],
-              name + ": the same keywords in the same order")
+        check(
+            [type(k).__name__ for k in ours] == [type(k).__name__ for k in echo],
+            name + ": the same keywords in the same order",
+        )
         for a, b in zip(ours, echo):
             left, right = values(a), values(b)
             for field, value in left.items():
                 if missing(value) or field in ("soa", "sob") or (field == "nz" and value == 0):
-                    continue    # its own defaults of blank fields: tuning; the axis z, 0 means 1
+                    continue  # its own defaults of blank fields: tuning; the axis z, 0 means 1
                 compared += 1
-                check(equal(value, right.get(field)), "%s: %s.%s is %s in the deck, %s in the echo" % (
-                    name, type(a).__name__, field, value, right.get(field)))
+                check(
+                    equal(value, right.get(field)),
+                    "%s: %s.%s is %s in the deck, %s in the echo"
+                    % (name, type(a).__name__, field, value, right.get(field)),
+                )
     check(compared > 3000, "only %d values were compared" % compared)
     print("%d passed, %d failed" % (passed, failed))
     return failed > 0

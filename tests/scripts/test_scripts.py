@@ -4,6 +4,7 @@
 Synthetic tables are made from the exact solution; decks are read back by a small reader of
 their own (class Deck).  usage: test_scripts.py [part of a test name ...]
 """
+
 import contextlib
 import io
 import json
@@ -26,21 +27,26 @@ import make_bars  # noqa: E402
 import plot_history  # noqa: E402
 import tables  # noqa: E402
 
-GLSTAT = ("time cycle dt kinetic internal total initial external motion friction contact "
-          "unsolved algorithmic damping residual ratio momx momy momz angx angy angz").split()
+GLSTAT = (
+    "time cycle dt kinetic internal total initial external motion friction contact "
+    "unsolved algorithmic damping residual ratio momx momy momz angx angy angz"
+).split()
 NODOUT = "time node ux uy uz vx vy vz vmx vmy vmz x y z".split()
-RCFORC = ("time contact side fx fy fz fmx fmy fmz ix iy iz fn ft nactive nstick nslip "
-          "gapmin").split()
+RCFORC = (
+    "time contact side fx fy fz fmx fmy fmz ix iy iz fn ft nactive nstick nslip " "gapmin"
+).split()
 
 
 # ---------------------------------------------------------------- synthetic runs
+
 
 def write_columns(directory, name, names, data, meta, status="done"):
     """Table from {column: values}; columns not given are zero."""
     rows = len(data["time"])
     columns = [np.broadcast_to(data.get(column, 0.0), rows) for column in names]
-    tables.write_table(os.path.join(directory, name + ".tab"), names, columns, status,
-                       meta["steps"])
+    tables.write_table(
+        os.path.join(directory, name + ".tab"), names, columns, status, meta["steps"]
+    )
 
 
 def write_glstat(directory, meta, exact, t, energy=0.0, status="done"):
@@ -48,10 +54,19 @@ def write_glstat(directory, meta, exact, t, energy=0.0, status="done"):
     kinetic, strain = exact.energies(t)
     kinetic = kinetic + energy * (t >= exact.release)
     momentum = sum(b.mass * v for b, v in zip(exact.bars, exact.mean_velocities(t)))
-    data = {"time": t, "cycle": np.arange(len(t)), "dt": meta["dt"], "kinetic": kinetic,
-            "internal": strain, "total": kinetic + strain, "initial": exact.energy,
-            "residual": 3e-14, "ratio": 1.0, "momx": momentum * meta["axis"][0],
-            "momy": momentum * meta["axis"][1]}
+    data = {
+        "time": t,
+        "cycle": np.arange(len(t)),
+        "dt": meta["dt"],
+        "kinetic": kinetic,
+        "internal": strain,
+        "total": kinetic + strain,
+        "initial": exact.energy,
+        "residual": 3e-14,
+        "ratio": 1.0,
+        "momx": momentum * meta["axis"][0],
+        "momy": momentum * meta["axis"][1],
+    }
     write_columns(directory, "glstat", GLSTAT, data, meta, status)
 
 
@@ -67,8 +82,9 @@ def write_nodout(directory, meta, exact, t, shift, shake, every=1):
         for i, node in enumerate(meta["face1"]):
             off = shift * (-1) ** i if len(meta["face1"]) > 1 else 0.0
             place = -0.5 * meta["gap"] * axis + meta["height"] * i * lateral
-            rows.append((t[k], node, *((u[k] + off) * axis), 0, 0, 0, 0, *(vm[k] * axis), 0,
-                         *place, 0))
+            rows.append(
+                (t[k], node, *((u[k] + off) * axis), 0, 0, 0, 0, *(vm[k] * axis), 0, *place, 0)
+            )
         for i, node in enumerate(meta["face2"]):
             place = 0.5 * meta["gap"] * axis + meta["height"] * i * lateral
             rows.append((t[k], node, *([0] * 9), *place, 0))
@@ -86,14 +102,25 @@ def write_rcforc(directory, meta, exact, t, chatter=0.0, every=1):
     rows = []
     for k in range(0, len(t), every):
         for side, along in zip(meta["sides"], (-1.0, 1.0)):
-            vectors = [x * along * c for x in (raw[k], mean[k], impulse[k])
-                       for c in (*meta["axis"], 0.0)]
+            vectors = [
+                x * along * c
+                for x in (raw[k], mean[k], impulse[k])
+                for c in (*meta["axis"], 0.0)
+            ]
             rows.append((t[k], 1, side, *vectors, raw[k], 0, 2, 2, 0, -1e-15))
     write_columns(directory, "rcforc", RCFORC, dict(zip(RCFORC, np.array(rows).T)), meta)
 
 
-def write_run(directory, meta, shift=0.0, shake=lambda t: 0.0 * t, chatter=0.0, energy=0.0,
-              every=1, status="done"):
+def write_run(
+    directory,
+    meta,
+    shift=0.0,
+    shake=lambda t: 0.0 * t,
+    chatter=0.0,
+    energy=0.0,
+    every=1,
+    status="done",
+):
     """Tables of a run that found the exact solution, plus known errors."""
     exact = analytic.impact_of(meta)
     t = meta["dt"] * np.arange(meta["steps"] + 1)
@@ -132,6 +159,7 @@ class Case(unittest.TestCase):
 
 # ---------------------------------------------------------------- tables
 
+
 class TablesTest(Case):
     def write(self, text):
         with open(self.path("x.tab"), "w", encoding="ascii") as out:
@@ -147,9 +175,11 @@ class TablesTest(Case):
         self.assertEqual((table.status, table.cycle, len(table)), ("done", 4, 5))
 
     def test_header_select_and_vectors(self):
-        path = self.write("# two bars\n# 1 time 2 node 3 ux 4 uy\n# time node ux uy\n"
-                          " 0.0E+000 7 1.0 2.0\n 0.0E+000 9 3.0 4.0\n 1.0E+000 7 5.0 6.0\n"
-                          "# end: stopped, cycle 12\n")
+        path = self.write(
+            "# two bars\n# 1 time 2 node 3 ux 4 uy\n# time node ux uy\n"
+            " 0.0E+000 7 1.0 2.0\n 0.0E+000 9 3.0 4.0\n 1.0E+000 7 5.0 6.0\n"
+            "# end: stopped, cycle 12\n"
+        )
         table = tables.read_table(path)
         self.assertEqual(table.names, ["time", "node", "ux", "uy"])
         self.assertEqual(table.header[0], "two bars")
@@ -170,8 +200,12 @@ class TablesTest(Case):
         self.assertTrue(np.isnan(table["ux"][0]) and np.isinf(table["ux"][1]))
 
     def test_errors_name_the_file(self):
-        for text in ("# time ux\n 0.0 1.0\n 1.0\n", "# time ux\n 0.0 1.0 2.0\n",
-                     "# time ux\n 0.0 ******\n", "0.0 1.0\n"):
+        for text in (
+            "# time ux\n 0.0 1.0\n 1.0\n",
+            "# time ux\n 0.0 1.0 2.0\n",
+            "# time ux\n 0.0 ******\n",
+            "0.0 1.0\n",
+        ):
             with self.assertRaisesRegex(tables.TableError, "x.tab"):
                 tables.read_table(self.write(text))
         with self.assertRaisesRegex(tables.TableError, "no column 'uq'; there are: time ux"):
@@ -190,6 +224,7 @@ class TablesTest(Case):
 
 # ---------------------------------------------------------------- exact solutions
 
+
 def grid_impact(bar1, bar2, dt, steps):
     """Independent solver: waves shifted cell by cell, h_i = c_i dt, touch at t = 0.
     Returns the force of each step and the final energies per bar (both kinds added)."""
@@ -207,16 +242,19 @@ def grid_impact(bar1, bar2, dt, steps):
         ends = left[0][0], right[1][-1]
         right = [np.append(ends[0], right[0][:-1]), np.append(v2 + force / z2, right[1][:-1])]
         left = [np.append(left[0][1:], v1 - force / z1), np.append(left[1][1:], ends[1])]
-    energy = [np.sum(r ** 2 + w ** 2) * b.line_mass * b.speed * dt / 4
-              for r, w, b in zip(right, left, (bar1, bar2))]
+    energy = [
+        np.sum(r**2 + w**2) * b.line_mass * b.speed * dt / 4
+        for r, w, b in zip(right, left, (bar1, bar2))
+    ]
     return np.array(forces), energy
 
 
 class AnalyticTest(Case):
     def test_two_bars_numbers(self):
         bars = analytic.TwoBars()
-        self.near([bars.touch, bars.release, bars.energy, bars.impulse],
-                  [0.01, 0.03, 0.01, 0.02])
+        self.near(
+            [bars.touch, bars.release, bars.energy, bars.impulse], [0.01, 0.03, 0.01, 0.02]
+        )
         self.near(bars.tip([0.005, 0.02, 0.035]), [0.005, 0.01, 0.005])
         self.near(bars.force(np.array([0.005, 0.02, 0.035])), [0.0, 1.0, 0.0])
         self.near(bars.kinetic(np.array([0.0, 0.015, 0.02, 0.03])), [0.01, 0.005, 0, 0.01])
@@ -235,16 +273,20 @@ class AnalyticTest(Case):
         x = -bars.length * (np.arange(4000) + 0.5) / 4000
         for t in (0.005, 0.0137, 0.0249, 0.035):
             v, s = bars.velocity(x, t), bars.stress(x, t)
-            kinetic = bars.density * bars.length * np.mean(v ** 2)
-            strain = np.mean(s ** 2) * bars.length / (bars.density * bars.speed ** 2)
+            kinetic = bars.density * bars.length * np.mean(v**2)
+            strain = np.mean(s**2) * bars.length / (bars.density * bars.speed**2)
             self.near([kinetic, strain], [bars.kinetic(t), bars.strain(t)], 1e-3)
             self.near(np.mean(v), bars.mean_velocity(t), 1e-3)
 
     def test_characteristics_equal_the_closed_form(self):
         bars = analytic.TwoBars(gap=0.0213, v0=0.7, area=2.0, density=2e-3)
         z = bars.density * bars.speed * bars.area
-        exact = analytic.Impact(analytic.Bar(10.0, 1000.0, z, 0.7),
-                                analytic.Bar(10.0, 1000.0, z, -0.7), 0.0213, 0.06)
+        exact = analytic.Impact(
+            analytic.Bar(10.0, 1000.0, z, 0.7),
+            analytic.Bar(10.0, 1000.0, z, -0.7),
+            0.0213,
+            0.06,
+        )
         t = np.linspace(0.0, 0.06, 203)
         self.near([exact.touch, exact.release], [bars.touch, bars.release])
         self.near(exact.tip(t), bars.tip(t))
@@ -279,7 +321,7 @@ class AnalyticTest(Case):
         self.near((form["v_cm2"] - form["v_cm1"]) / 2.0, form["restitution"])
         rigid = 0.5 * bar2.mass * form["v_cm2"] ** 2
         self.near(1.0 - rigid / exact.energy, form["vibration_share"])
-        u1, u2 = exact.displacement(np.linspace(0.0, 0.05, 51))   # until 2 L2/c they touch
+        u1, u2 = exact.displacement(np.linspace(0.0, 0.05, 51))  # until 2 L2/c they touch
         self.near(u1, u2)
         u1, u2 = exact.displacement(0.06)
         self.assertGreater(u2 - u1, 1e-3)
@@ -292,15 +334,17 @@ class AnalyticTest(Case):
 
     def test_staircase(self):
         self.near(analytic.staircase(3.0, 1.0, 1.0, [0, 1, 2]), [0.75, 0.375, 0.1875])
-        exact = analytic.Impact(analytic.Bar(1.0, 1000.0, 3.0, 1.0),
-                                analytic.Bar(100.0, 1000.0, 1.0, 0.0), 0.0, 0.1)
+        exact = analytic.Impact(
+            analytic.Bar(1.0, 1000.0, 3.0, 1.0), analytic.Bar(100.0, 1000.0, 1.0, 0.0), 0.0, 0.1
+        )
         k = np.arange(12)
         self.near(exact.force(0.002 * (k + 0.5)), analytic.staircase(3.0, 1.0, 1.0, k))
         self.near(exact.step_forces(0.0005, 8), [0.75] * 4 + [0.375] * 4)
 
     def test_light_bar_rebounds(self):
-        exact = analytic.Impact(analytic.Bar(1.0, 1000.0, 1.0, 1.0),
-                                analytic.Bar(50.0, 1000.0, 3.0, 0.0), 0.0, 0.05)
+        exact = analytic.Impact(
+            analytic.Bar(1.0, 1000.0, 1.0, 1.0), analytic.Bar(50.0, 1000.0, 3.0, 0.0), 0.0, 0.05
+        )
         self.near([exact.force(0.001), exact.force(0.003)], [0.75, 0.0])
         self.near(exact.mean_velocities(0.05)[0], -0.5)
         self.near(analytic.staircase(1.0, 3.0, 1.0, [0, 1]), [0.75, 0.0])
@@ -334,8 +378,10 @@ class AnalyticTest(Case):
         force = exact.step_forces(1e-4, 400)
         self.near(force[[99, 100, 101, 299, 300, 301]], [0, 0.75, 1, 1, 0.25, 0], 1e-10)
         self.near(exact.touch, 0.010025)
-        self.near([analytic.touch_time(0.2, 1.0, -1.0), analytic.touch_time(0.0, 1.0, 0.0)],
-                  [0.1, 0.0])
+        self.near(
+            [analytic.touch_time(0.2, 1.0, -1.0), analytic.touch_time(0.0, 1.0, 0.0)],
+            [0.1, 0.0],
+        )
         self.assertEqual(analytic.touch_time(0.1, 1.0, 1.0), float("inf"))
 
     def test_command_line(self):
@@ -346,15 +392,24 @@ class AnalyticTest(Case):
 
 # ---------------------------------------------------------------- decks
 
+
 class Deck:
     """Cards of a deck by keyword, read by the rules of the format: fixed columns or commas.
 
     cards  {keyword: [[field, ...], ...]} as text, '' for blank; title cards are one field
     """
-    WIDTHS = {"*NODE": (8, 16, 16, 16, 8, 8), "*ELEMENT_SHELL": (8,) * 10,
-              "*PARAMETER": (10,) * 8}
-    TITLES = {"*TITLE": (1, 1), "*SET_NODE_LIST_TITLE": (1, 0), "*PART": (1, 2),
-              "*INCLUDE": (1, 1)}
+
+    WIDTHS = {
+        "*NODE": (8, 16, 16, 16, 8, 8),
+        "*ELEMENT_SHELL": (8,) * 10,
+        "*PARAMETER": (10,) * 8,
+    }
+    TITLES = {
+        "*TITLE": (1, 1),
+        "*SET_NODE_LIST_TITLE": (1, 0),
+        "*PART": (1, 2),
+        "*INCLUDE": (1, 1),
+    }
 
     def __init__(self, path):
         self.cards, self.lines = {}, []
@@ -409,8 +464,10 @@ class Deck:
 
     def elements(self):
         """{id: (part, [nodes])}"""
-        return {int(f[0]): (int(f[1]), [int(n) for n in f[2:6]])
-                for f in self.cards["*ELEMENT_SHELL"]}
+        return {
+            int(f[0]): (int(f[1]), [int(n) for n in f[2:6]])
+            for f in self.cards["*ELEMENT_SHELL"]
+        }
 
     def sets(self):
         """{set id: [nodes]}"""
@@ -429,8 +486,10 @@ class Deck:
     def velocities(self):
         """{part: (vx, vy)}"""
         cards = [f for f in self.cards["*INITIAL_VELOCITY_GENERATION"] if any(f)]
-        return {int(f[0]): tuple(self.number(v) if v else 0.0 for v in (f + [""])[3:5])
-                for f in cards}
+        return {
+            int(f[0]): tuple(self.number(v) if v else 0.0 for v in (f + [""])[3:5])
+            for f in cards
+        }
 
 
 def area(points):
@@ -439,11 +498,22 @@ def area(points):
     return 0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
 
 
-VARIANTS = ({}, {"angle": 37.0}, {"angle": 90.0}, {"angle": -123.4, "mirror": "x"},
-            {"mirror": "x"}, {"mirror": "y"}, {"swap": True}, {"renumber": 5},
-            {"renumber": 5, "swap": True, "mirror": "y", "angle": 12.0},
-            {"random": (0.6, 3), "ny": 3, "ny2": 2}, {"scale_length": 1024.0},
-            {"offset": (100.0, -3.0)}, {"slide": 0.25}, {"nx2": 7, "length2": 3.0})
+VARIANTS = (
+    {},
+    {"angle": 37.0},
+    {"angle": 90.0},
+    {"angle": -123.4, "mirror": "x"},
+    {"mirror": "x"},
+    {"mirror": "y"},
+    {"swap": True},
+    {"renumber": 5},
+    {"renumber": 5, "swap": True, "mirror": "y", "angle": 12.0},
+    {"random": (0.6, 3), "ny": 3, "ny2": 2},
+    {"scale_length": 1024.0},
+    {"offset": (100.0, -3.0)},
+    {"slide": 0.25},
+    {"nx2": 7, "length2": 3.0},
+)
 
 
 class MakeBarsTest(Case):
@@ -453,24 +523,40 @@ class MakeBarsTest(Case):
 
     def test_default_is_the_papers_test(self):
         deck = self.deck()
-        self.near([deck.field("*CONTROL_TERMINATION", 1, 1),
-                   deck.field("*CONTROL_IMPLICIT_GENERAL", 1, 2)], [0.04, 1e-5])
-        self.assertEqual([deck.number(f) for f in deck.cards["*MAT_ELASTIC"][0][:4]],
-                         [1, 1e-3, 1000.0, 0.0])
+        self.near(
+            [
+                deck.field("*CONTROL_TERMINATION", 1, 1),
+                deck.field("*CONTROL_IMPLICIT_GENERAL", 1, 2),
+            ],
+            [0.04, 1e-5],
+        )
+        self.assertEqual(
+            [deck.number(f) for f in deck.cards["*MAT_ELASTIC"][0][:4]], [1, 1e-3, 1000.0, 0.0]
+        )
         self.assertEqual(deck.cards["*SECTION_SHELL"][0][:4], ["1", "13", "", "4"])
         self.assertEqual(deck.velocities(), {1: (1.0, 0.0), 2: (-1.0, 0.0)})
         self.assertEqual((len(deck.nodes()), len(deck.elements())), (404, 200))
-        self.assertEqual(deck.parameters, {"tend": "0.04", "dt": "1e-05", "v0": "1.0",
-                                           "mu": "0.0"})
+        self.assertEqual(
+            deck.parameters, {"tend": "0.04", "dt": "1e-05", "v0": "1.0", "mu": "0.0"}
+        )
         self.assertEqual(deck.cards["*DATABASE_GLSTAT"][0][0], "0.0001")
-        self.assertEqual((self.meta["steps"], self.meta["touch"], self.meta["case"]),
-                         (4000, 0.01, "two_bars"))
+        self.assertEqual(
+            (self.meta["steps"], self.meta["touch"], self.meta["case"]),
+            (4000, 0.01, "two_bars"),
+        )
         x = sorted({p[0] for p in deck.nodes().values()})
         self.assertEqual((x[0], x[100], x[101], x[-1]), (-10.01, -0.01, 0.01, 10.01))
 
     def test_every_number_reads_back(self):
-        options = dict(nx=30, angle=37.0, v0=0.1 + 0.2, young=999.9999999, mass="DISPERSION",
-                       courant=1.0, mu=1 / 3)
+        options = dict(
+            nx=30,
+            angle=37.0,
+            v0=0.1 + 0.2,
+            young=999.9999999,
+            mass="DISPERSION",
+            courant=1.0,
+            mu=1 / 3,
+        )
         deck = self.deck(**options)
         o = make_bars.resolve(options)
         wanted = {n: (x, y) for n, x, y in make_bars.make_mesh(o).nodes}
@@ -481,7 +567,7 @@ class MakeBarsTest(Case):
         self.assertEqual(deck.field("*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", 1, 5), 1 / 3)
         speed = np.hypot(*deck.velocities()[1])
         self.near(speed, 0.1 + 0.2, 1e-15)
-        self.assertEqual(list(deck.parameters), [])   # none fits its 10 columns
+        self.assertEqual(list(deck.parameters), [])  # none fits its 10 columns
 
     def test_lines_keep_to_the_format(self):
         for options in VARIANTS:
@@ -505,7 +591,7 @@ class MakeBarsTest(Case):
                 self.assertGreater(one, 0.0, options)
                 total += one
             scale = options.get("scale_length", 1.0)
-            self.near(total, (10.0 + options.get("length2", 10.0)) * scale ** 2)
+            self.near(total, (10.0 + options.get("length2", 10.0)) * scale**2)
 
     def test_faces_and_direction(self):
         for options in VARIANTS:
@@ -526,10 +612,13 @@ class MakeBarsTest(Case):
 
     def test_turn_mirror_and_quarter_are_exact_where_possible(self):
         plain = self.deck(nx=7).nodes()
-        self.assertEqual(self.deck(nx=7, angle=90.0).nodes(),
-                         {n: (-y + 0.0, x) for n, (x, y) in plain.items()})
-        self.assertEqual(self.deck(nx=7, mirror="x").nodes(),
-                         {n: (-x, y) for n, (x, y) in plain.items()})
+        self.assertEqual(
+            self.deck(nx=7, angle=90.0).nodes(),
+            {n: (-y + 0.0, x) for n, (x, y) in plain.items()},
+        )
+        self.assertEqual(
+            self.deck(nx=7, mirror="x").nodes(), {n: (-x, y) for n, (x, y) in plain.items()}
+        )
         turned = self.deck(nx=7, angle=37.0).nodes()
         c, s = math.cos(math.radians(37.0)), math.sin(math.radians(37.0))
         for n, (x, y) in plain.items():
@@ -563,20 +652,22 @@ class MakeBarsTest(Case):
         self.assertTrue(all(plain.nodes()[n] == other.nodes()[n] for n in ends))
 
     def test_change_of_units_keeps_every_digit(self):
-        plain, a, b, s = self.deck(nx=6, gap=0.021), 0.25, 8.0, 2.0 ** -10
+        plain, a, b, s = self.deck(nx=6, gap=0.021), 0.25, 8.0, 2.0**-10
         first = self.meta
         scaled = self.deck(nx=6, gap=0.021, scale_length=a, scale_mass=b, scale_time=s)
-        self.assertEqual({n: (a * x, a * y) for n, (x, y) in plain.nodes().items()},
-                         scaled.nodes())
+        self.assertEqual(
+            {n: (a * x, a * y) for n, (x, y) in plain.nodes().items()}, scaled.nodes()
+        )
         mat = "*MAT_ELASTIC"
-        self.assertEqual(scaled.field(mat, 1, 2), b / a ** 3 * plain.field(mat, 1, 2))
+        self.assertEqual(scaled.field(mat, 1, 2), b / a**3 * plain.field(mat, 1, 2))
         self.assertEqual(scaled.field(mat, 1, 3), b / (a * s * s) * plain.field(mat, 1, 3))
         self.assertEqual(scaled.field("*SECTION_SHELL", 2, 1), a)
         self.assertEqual(scaled.velocities()[1][0], a / s)
         dt = ("*CONTROL_IMPLICIT_GENERAL", 1, 2)
         self.assertEqual(scaled.field(*dt), s * plain.field(*dt))
-        self.assertEqual(scaled.field("*DATABASE_NODOUT", 1, 1),
-                         s * plain.field("*DATABASE_NODOUT", 1, 1))
+        self.assertEqual(
+            scaled.field("*DATABASE_NODOUT", 1, 1), s * plain.field("*DATABASE_NODOUT", 1, 1)
+        )
         self.assertEqual(self.meta["energy"], a * a * b / (s * s) * first["energy"])
         self.assertEqual(self.meta["Z"], b / s * first["Z"])
         self.near(self.meta["bars"][0]["courant"], first["bars"][0]["courant"], 1e-15)
@@ -617,7 +708,7 @@ class MakeBarsTest(Case):
         self.near([self.meta["touch"], self.meta["tend"]], [0.1, 0.13])
         self.deck(gap=0.2, v0=10.0)
         self.near([self.meta["touch"], self.meta["tend"]], [0.01, 0.04])
-        self.deck(nx=30, courant=1.0, mass="DISPERSION")   # whole steps
+        self.deck(nx=30, courant=1.0, mass="DISPERSION")  # whole steps
         self.near(self.meta["tend"] / self.meta["dt"], self.meta["steps"], 1e-12)
 
     def test_unused_fields_stay_blank(self):
@@ -631,8 +722,9 @@ class MakeBarsTest(Case):
         self.assertEqual(newmark.cards["*CONTROL_IMPLICIT_DYNAMICS"][0][1:3], ["0.5", "0.25"])
         self.assertEqual(newmark.cards["*BIPACT_MASS"][0][:2], ["LUMPED", "1"])
         self.assertEqual(newmark.cards["*BIPACT_LEDGER"][0][0], "10")
-        self.assertEqual(self.deck(theta=0.7, xi=0.6).cards["*BIPACT_TIME"][0][1:3],
-                         ["0.7", "0.6"])
+        self.assertEqual(
+            self.deck(theta=0.7, xi=0.6).cards["*BIPACT_TIME"][0][1:3], ["0.7", "0.6"]
+        )
         self.assertEqual(self.deck(plane_stress=True).cards["*SECTION_SHELL"][0][1], "12")
 
     def test_tables_and_intervals(self):
@@ -651,13 +743,26 @@ class MakeBarsTest(Case):
 
     def test_meta_file_and_description(self):
         self.deck(nx=4, angle=30.0)
-        self.assertEqual(compare.load_meta(self.path("bars.json")),
-                         json.loads(json.dumps(self.meta)))
+        self.assertEqual(
+            compare.load_meta(self.path("bars.json")), json.loads(json.dumps(self.meta))
+        )
         self.assertEqual(make_bars.describe(nx=4, angle=30.0), self.meta)
 
     def test_command_line(self):
-        code, text = self.call(make_bars.main, "--nx", "5", "--random", "0.2", "7", "--meta",
-                               "--offset=-1,2", "--tables", "glstat", "-o", self.path("a.k"))
+        code, text = self.call(
+            make_bars.main,
+            "--nx",
+            "5",
+            "--random",
+            "0.2",
+            "7",
+            "--meta",
+            "--offset=-1,2",
+            "--tables",
+            "glstat",
+            "-o",
+            self.path("a.k"),
+        )
         self.assertEqual((code, os.path.exists(self.path("a.json"))), (0, True), text)
         code, text = self.call(make_bars.main, "--nx", "5")
         self.assertEqual((code, text.splitlines()[-1]), (0, "*END"))
@@ -665,36 +770,56 @@ class MakeBarsTest(Case):
         self.assertIn("--courant", self.call(make_bars.main, "--help")[1])
 
     def test_bad_data_are_refused(self):
-        for options in ({"v0": -1.0}, {"nx": 0}, {"gap": -1.0}, {"poisson": 0.5}, {"dt": 0.0},
-                        {"dt": 1e-5, "courant": 1.0}, {"tables": ["foo"]}, {"nosuch": 1},
-                        {"random": (1.0, 1)}):
+        for options in (
+            {"v0": -1.0},
+            {"nx": 0},
+            {"gap": -1.0},
+            {"poisson": 0.5},
+            {"dt": 0.0},
+            {"dt": 1e-5, "courant": 1.0},
+            {"tables": ["foo"]},
+            {"nosuch": 1},
+            {"random": (1.0, 1)},
+        ):
             with self.assertRaises(ValueError, msg=options):
                 make_bars.describe(**options)
         self.assertEqual(self.call(make_bars.main, "--gap", "-1")[0], 1)
 
     def test_needs_the_standard_library_only(self):
-        code = ("import sys; sys.modules['numpy'] = sys.modules['matplotlib'] = None; "
-                "sys.path.insert(0, %r); import make_bars; make_bars.describe(nx=3)" % SCRIPTS)
+        code = (
+            "import sys; sys.modules['numpy'] = sys.modules['matplotlib'] = None; "
+            "sys.path.insert(0, %r); import make_bars; make_bars.describe(nx=3)" % SCRIPTS
+        )
         self.assertEqual(subprocess.run([sys.executable, "-c", code]).returncode, 0)
 
 
 # ---------------------------------------------------------------- comparison
+
 
 class CompareTest(Case):
     def scene(self, **options):
         return make_bars.describe(**{"nx": 20, "courant": 0.5, **options})
 
     def test_exact_tables_have_no_error(self):
-        for options in ({}, {"angle": 37.0}, {"mirror": "x", "angle": 90.0}, {"swap": True},
-                        {"touch": 0.25}, {"renumber": 1}, {"scale_length": 8.0},
-                        {"length2": 25.0, "v2": 0.0}, {"young2": 250.0, "density2": 2.5e-4}):
+        for options in (
+            {},
+            {"angle": 37.0},
+            {"mirror": "x", "angle": 90.0},
+            {"swap": True},
+            {"touch": 0.25},
+            {"renumber": 1},
+            {"scale_length": 8.0},
+            {"length2": 25.0, "v2": 0.0},
+            {"young2": 250.0, "density2": 2.5e-4},
+        ):
             meta = self.scene(**options)
             write_run(self.dir, meta)
             m = compare.measure(self.dir, meta)
             for name in ("err", "e_u", "e_R", "e_R2", "osc", "momentum", "force_sum"):
                 self.assertLess(m[name], 2e-11, (name, options))
-            self.near([m["impulse"], m["E_end"], m["E_max"], m["residual"]],
-                      [1, 1, 1, 3e-14], 1e-11)
+            self.near(
+                [m["impulse"], m["E_end"], m["E_max"], m["residual"]], [1, 1, 1, 3e-14], 1e-11
+            )
             self.assertEqual((m["status"], m["gapmin"]), ("done", -1e-15))
 
     def test_known_displacement_error(self):
@@ -703,14 +828,14 @@ class CompareTest(Case):
         m = compare.measure(self.dir, meta)
         t = meta["dt"] * np.arange(meta["steps"] + 1)
         u = analytic.TwoBars().tip(t)
-        self.near(m["err"], 1e-4 * math.sqrt(np.sum(t > 0.02) / np.sum(u ** 2)), 1e-9)
+        self.near(m["err"], 1e-4 * math.sqrt(np.sum(t > 0.02) / np.sum(u**2)), 1e-9)
         self.near(m["e_u"], 1e-4 / 0.02, 1e-9)
 
     def test_known_force_chatter(self):
         meta = self.scene()
         exact = write_run(self.dir, meta, chatter=0.3)
         m = compare.measure(self.dir, meta)
-        full = round((exact.release - exact.touch) / meta["dt"]) - 3   # see write_rcforc
+        full = round((exact.release - exact.touch) / meta["dt"]) - 3  # see write_rcforc
         self.near(m["e_R"], 0.3 * full * meta["dt"] / exact.impulse(1.0), 1e-9)
         self.near(m["e_R2"], 2 * 0.15 * meta["dt"] / exact.impulse(1.0), 1e-9)
 
@@ -724,7 +849,7 @@ class CompareTest(Case):
     def test_first_and_last_step_in_contact_do_not_count(self):
         meta = self.scene(touch=0.5)
         dt = meta["dt"]
-        inside = round((0.02 - dt) / dt) - 2   # whole steps in contact, without two
+        inside = round((0.02 - dt) / dt) - 2  # whole steps in contact, without two
         write_run(self.dir, meta)
         run = compare.Run(self.dir, meta)
         mask = compare.steps_in_contact(run, run.tip()[0])
@@ -773,8 +898,7 @@ class CompareTest(Case):
         names = ["wall" if n == "contact" else n for n in RCFORC if n != "side"]
         columns = [rows["contact" if n == "wall" else n] for n in names]
         tables.write_table(self.path("rwforc.tab"), names, columns, "done", meta["steps"])
-        wall = compare.meta_of("wall", 10.0, 1000.0, 1.0, 0.01, 1.0, 1e-3,
-                               face1=meta["face1"])
+        wall = compare.meta_of("wall", 10.0, 1000.0, 1.0, 0.01, 1.0, 1e-3, face1=meta["face1"])
         m = compare.measure(self.dir, wall)
         for name in ("err", "e_R", "e_R2", "osc"):
             self.assertLess(m[name], 2e-11, name)
@@ -784,8 +908,15 @@ class CompareTest(Case):
     def test_bounds(self):
         result = dict.fromkeys(compare.ORDER, 0.5)
         result.update(status="done", osc=None)
-        met = ["err<=0.5", "err <= 0.5", "E_end in 0.4..0.6", "dE_end in -6e-3..0.5", "e_u>=.5",
-               "e_R<0.6", "gapmin>-1e-9"]
+        met = [
+            "err<=0.5",
+            "err <= 0.5",
+            "E_end in 0.4..0.6",
+            "dE_end in -6e-3..0.5",
+            "e_u>=.5",
+            "e_R<0.6",
+            "gapmin>-1e-9",
+        ]
         self.assertEqual(compare.missed_bounds(result, met), [])
         missed = ["err<=0.4", "E_end in 0.6..1", "osc<=1", "e_R<0.5"]
         self.assertEqual(len(compare.missed_bounds(result, missed)), 4)
@@ -804,8 +935,19 @@ class CompareTest(Case):
         code, text = self.call(compare.main, *words, "E_end in 0.5..0.9")
         self.assertEqual(code, 1)
         self.assertIn("E_end = 1, wanted in 0.5..0.9", text)
-        code, text = self.call(compare.main, self.dir, "--L", "10", "--gap", "0.02",
-                               "--axis", "2,0", "--check", "err<=1e-10", "osc<=1e-9")
+        code, text = self.call(
+            compare.main,
+            self.dir,
+            "--L",
+            "10",
+            "--gap",
+            "0.02",
+            "--axis",
+            "2,0",
+            "--check",
+            "err<=1e-10",
+            "osc<=1e-9",
+        )
         self.assertEqual(code, 0, text)
         self.assertEqual(self.call(compare.main, *words[:-1], "err=3")[0], 2)
 
@@ -844,8 +986,16 @@ class FigureTest(Case):
     def test_figures_of_the_impact(self):
         for kind in ("displacement", "energy", "force"):
             path = self.path(kind + ".png")
-            code, text = self.call(plot_history.main, self.dir, "--kind", kind, "--meta",
-                                   self.path("a.json"), "-o", path)
+            code, text = self.call(
+                plot_history.main,
+                self.dir,
+                "--kind",
+                kind,
+                "--meta",
+                self.path("a.json"),
+                "-o",
+                path,
+            )
             self.assertEqual((code, text.strip()), (0, path))
             self.check_picture(path)
 
@@ -856,19 +1006,28 @@ class FigureTest(Case):
         self.assertEqual(self.call(plot_history.main, *words, node), (0, path + "\n"))
         self.check_picture(path)
         self.assertEqual(self.call(plot_history.main, *words, "node=999999")[0], 1)
-        self.assertEqual(self.call(plot_history.main, self.dir, "--table", "none", "--columns",
-                                   "ux", "-o", path)[0], 1)
+        self.assertEqual(
+            self.call(
+                plot_history.main, self.dir, "--table", "none", "--columns", "ux", "-o", path
+            )[0],
+            1,
+        )
         self.assertEqual(self.call(plot_history.main, self.dir, "-o", path)[0], 2)
 
     def test_dimensions(self):
-        for table, column, unit in (("glstat", "contact", " [F L]"), ("nodout", "ux", " [L]"),
-                                    ("rcforc", "contact", ""), ("glstat", "residual", "")):
+        for table, column, unit in (
+            ("glstat", "contact", " [F L]"),
+            ("nodout", "ux", " [L]"),
+            ("rcforc", "contact", ""),
+            ("glstat", "residual", ""),
+        ):
             self.assertEqual(plot_history.unit_of(table, column), unit)
 
     def test_missing_table_is_named(self):
         os.remove(self.path("rcforc.tab"))
-        code, text = self.call(plot_history.main, self.dir, "--kind", "force", "-o",
-                               self.path("f.png"))
+        code, text = self.call(
+            plot_history.main, self.dir, "--kind", "force", "-o", self.path("f.png")
+        )
         self.assertEqual(code, 1)
         self.assertIn("no rows of table rcforc", text)
 
@@ -882,9 +1041,21 @@ class DemoTest(Case):
             out.write(program)
         os.chmod(self.path("program"), 0o755)
         return subprocess.run(
-            [sys.executable, os.path.join(SCRIPTS, "demo.py"), "--bin", self.path("program"),
-             "--decks", self.dir, "--out", self.path("out")],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.dir)
+            [
+                sys.executable,
+                os.path.join(SCRIPTS, "demo.py"),
+                "--bin",
+                self.path("program"),
+                "--decks",
+                self.dir,
+                "--out",
+                self.path("out"),
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=self.dir,
+        )
 
     def test_figures_and_table(self):
         done = self.demo(FAKE % (sys.executable, HERE, "1.0"))
@@ -900,20 +1071,31 @@ class DemoTest(Case):
         self.assertEqual(done.returncode, 1)
         self.assertIn("newmark.k ended with exit code 1", done.stderr)
         self.assertIn("pivot is zero", done.stderr)
-        self.assertEqual(self.demo("#!/bin/sh\nexit 0\n").returncode, 1)   # no tables
+        self.assertEqual(self.demo("#!/bin/sh\nexit 0\n").returncode, 1)  # no tables
 
     def test_a_missing_program_is_named(self):
         done = subprocess.run(
-            [sys.executable, os.path.join(SCRIPTS, "demo.py"), "--bin", self.path("nothing"),
-             "--out", self.path("out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-            text=True)
+            [
+                sys.executable,
+                os.path.join(SCRIPTS, "demo.py"),
+                "--bin",
+                self.path("nothing"),
+                "--out",
+                self.path("out"),
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.assertEqual(done.returncode, 1)
         self.assertIn("nothing is missing", done.stderr)
 
 
 class StyleTest(Case):
-    FILES = [os.path.join(SCRIPTS, n + ".py") for n in
-             "analytic compare demo make_bars plot_history tables".split()] + [__file__]
+    FILES = [
+        os.path.join(SCRIPTS, n + ".py")
+        for n in "analytic compare demo make_bars plot_history tables".split()
+    ] + [__file__]
 
     def test_width_and_help(self):
         for path in self.FILES:
@@ -929,8 +1111,15 @@ class StyleTest(Case):
 def main(words):
     """Run the tests whose names contain a word; print the count as the last line."""
     suite, loader = unittest.TestSuite(), unittest.TestLoader()
-    for case in (TablesTest, AnalyticTest, MakeBarsTest, CompareTest, FigureTest, DemoTest,
-                 StyleTest):
+    for case in (
+        TablesTest,
+        AnalyticTest,
+        MakeBarsTest,
+        CompareTest,
+        FigureTest,
+        DemoTest,
+        StyleTest,
+    ):
         for name in loader.getTestCaseNames(case):
             if not words or any(w in case.__name__ + "." + name for w in words):
                 suite.addTest(case(name))

@@ -1,4 +1,5 @@
 """What the deck tests share: run a deck, read its tables, count the checks."""
+
 import os
 import subprocess
 import sys
@@ -40,8 +41,12 @@ def show(text):
 
 def bipact(deck, folder, *options):
     """Runs a deck; returns (exit code, standard error, standard output)."""
-    done = subprocess.run([BIPACT, deck, "-o", folder] + list(options), stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True)
+    done = subprocess.run(
+        [BIPACT, deck, "-o", folder] + list(options),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     return done.returncode, done.stderr, done.stdout
 
 
@@ -75,14 +80,27 @@ def finish():
     sys.exit(failed > 0 or passed == 0)
 
 
-def two_blocks(young=1.0e4, density=1.0, nx=(4, 4), ny=(2, 2), size=(1.0, 1.0), gap=0.0,
-               base=(8.0, 1.0), plane=13, poisson=0.3):
+def two_blocks(
+    young=1.0e4,
+    density=1.0,
+    nx=(4, 4),
+    ny=(2, 2),
+    size=(1.0, 1.0),
+    gap=0.0,
+    base=(8.0, 1.0),
+    plane=13,
+    poisson=0.3,
+):
     """Nodes and elements of a block (part 2) on a base (part 1) whose top is y = 0."""
     lines, elements, node, element = ["*NODE"], [], 0, 0
     sets = {}
-    for part, (x0, y0, lx, ly, mx, my) in enumerate((
+    for part, (x0, y0, lx, ly, mx, my) in enumerate(
+        (
             (-1.0, -base[1], base[0], base[1], nx[0], ny[0]),
-            (0.0, gap, size[0], size[1], nx[1], ny[1])), start=1):
+            (0.0, gap, size[0], size[1], nx[1], ny[1]),
+        ),
+        start=1,
+    ):
         first = node + 1
         for i in range(mx + 1):
             for j in range(my + 1):
@@ -92,26 +110,58 @@ def two_blocks(young=1.0e4, density=1.0, nx=(4, 4), ny=(2, 2), size=(1.0, 1.0), 
             for j in range(my):
                 element += 1
                 a = first + i * (my + 1) + j
-                elements.append("%d,%d,%d,%d,%d,%d" % (element, part, a, a + my + 1, a + my + 2,
-                                                       a + 1))
+                elements.append(
+                    "%d,%d,%d,%d,%d,%d" % (element, part, a, a + my + 1, a + my + 2, a + 1)
+                )
         sets[part] = range(first, node + 1)
     lines += ["*ELEMENT_SHELL"] + elements
-    lines += ["*PART", "base", "1,1,1", "block", "2,1,1", "*SECTION_SHELL", "1,%d" % plane, "1.0",
-              "*MAT_ELASTIC", "1,%r,%r,%r" % (density, young, poisson)]
+    lines += [
+        "*PART",
+        "base",
+        "1,1,1",
+        "block",
+        "2,1,1",
+        "*SECTION_SHELL",
+        "1,%d" % plane,
+        "1.0",
+        "*MAT_ELASTIC",
+        "1,%r,%r,%r" % (density, young, poisson),
+    ]
     lines += ["*SET_PART_LIST", "11,", "1,", "*SET_PART_LIST", "12,", "2,"]
     for part in (1, 2):
         lines += ["*SET_NODE_LIST", "%d," % part]
         nodes = list(sets[part])
-        lines += [",".join(map(str, nodes[k:k + 8])) + "," for k in range(0, len(nodes), 8)]
+        lines += [",".join(map(str, nodes[k : k + 8])) + "," for k in range(0, len(nodes), 8)]
     return lines, sets
 
 
-def deck(lines, dt, tend, scheme="THETA,0.5,0.5", mass="CONSISTENT,0", mu=None, every=None,
-         history=(), extra=()):
+def deck(
+    lines,
+    dt,
+    tend,
+    scheme="THETA,0.5,0.5",
+    mass="CONSISTENT,0",
+    mu=None,
+    every=None,
+    history=(),
+    extra=(),
+):
     """A whole deck around mesh lines."""
-    out = ["*KEYWORD", "*TITLE", "test scene", "*CONTROL_TERMINATION", "%r," % tend,
-           "*CONTROL_IMPLICIT_GENERAL", "1,%r" % dt, "*CONTROL_IMPLICIT_DYNAMICS", "1,",
-           "*BIPACT_TIME", scheme + ",", "*BIPACT_MASS", mass + ","]
+    out = [
+        "*KEYWORD",
+        "*TITLE",
+        "test scene",
+        "*CONTROL_TERMINATION",
+        "%r," % tend,
+        "*CONTROL_IMPLICIT_GENERAL",
+        "1,%r" % dt,
+        "*CONTROL_IMPLICIT_DYNAMICS",
+        "1,",
+        "*BIPACT_TIME",
+        scheme + ",",
+        "*BIPACT_MASS",
+        mass + ",",
+    ]
     out += list(lines) + list(extra)
     if mu is not None:
         out += ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,,,%r" % mu]
