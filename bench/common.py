@@ -1,5 +1,8 @@
 """What the studies share: run a deck as a child process, read its log, paths."""
 
+import argparse
+import json
+import multiprocessing
 import os
 import platform
 import re
@@ -59,6 +62,9 @@ def read_log(folder):
                     found[key] = int(match.group(1))
             if line.startswith("WARNING "):
                 found.setdefault("warnings", []).append(line[8:].strip())
+            match = re.search(r"gave the bodies (\S+)", line)
+            if match:
+                found["corrections"] = float(match.group(1))
             match = re.search(r"worst error (\S+), eta (\S+),.*certificate (.*)", line)
             if match:
                 found["certificate"] = match.group(3).strip()
@@ -93,3 +99,61 @@ def without_tables(path):
     with open(name, "w") as deck:
         deck.writelines(out)
     return name
+
+
+def sweep(work, tasks, key, store, jobs):
+    """Results of work(task) for all tasks, {key(task): result}, one run per core. Each result
+    goes to store/runs.jsonl at once, and what is there already is not made again."""
+    path = os.path.join(store, "runs.jsonl")
+    done = {}
+    if os.path.exists(path):
+        with open(path) as file:
+            done = dict(json.loads(line) for line in file if line.endswith("\n"))
+    left = [task for task in tasks if key(task) not in done]
+    start = time.time()
+    with multiprocessing.Pool(jobs) as pool, open(path, "a") as file:
+        found = pool.imap(work, left)
+        for k, (task, result) in enumerate(zip(left, found), 1):
+            file.write(json.dumps([key(task), result]) + "\n")
+            file.flush()
+            done[key(task)] = result
+            if sys.stderr.isatty() or k % 200 == 0 or k == len(left):
+                word = "\r%d of %d runs, %.0f s" % (k, len(left), time.time() - start)
+                print(word, end="", file=sys.stderr)
+    if left:
+        print(file=sys.stderr)
+    return done
+
+
+def label(run):
+    """Short name of a combination, a dictionary or (scheme, theta, mass, redist): THETA D*,
+    NEWMARK C, THETA 0.55 C."""
+    if isinstance(run, tuple):
+        run = dict(zip(("scheme", "theta", "mass", "redist"), run))
+    theta = "" if run["theta"] == 0.5 else " %g" % run["theta"]
+    return "%s%s %s%s" % (run["scheme"], theta, run["mass"][0], "*" if run["redist"] else "")
+
+
+def study_arguments(words):
+    """Options that the studies share."""
+    parser = argparse.ArgumentParser(
+        description=words, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--quick", action="store_true", help="few runs, into build/")
+    parser.add_argument("--fresh", action="store_true", help="forget earlier runs")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--out", help="folder of the report")
+    parser.add_argument("--store", help="folder of the kept results")
+    return parser.parse_args()
+
+
+def study_folders(name, a):
+    """(folder of the kept results, folder of the report) of a study; made, emptied if fresh."""
+    store = a.store or os.path.join(ROOT, "build", name, "quick" if a.quick else "full")
+    out = a.out or (store if a.quick else os.path.join(ROOT, "doc", name))
+    os.makedirs(store, exist_ok=True)
+    os.makedirs(out, exist_ok=True)
+    kept = os.path.join(store, "runs.jsonl")
+    if a.fresh and os.path.exists(kept):
+        os.remove(kept)
+    return store, out

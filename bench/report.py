@@ -9,15 +9,12 @@ build/report/runs.jsonl, so that an interrupted study goes on where it stopped; 
 over. Writes index.md, runs.csv and figures. --quick takes few meshes and steps and writes to
 build/report/quick."""
 
-import argparse
 import csv
 import json
 import math
-import multiprocessing
 import os
 import sys
 import tempfile
-import time
 
 import numpy as np
 
@@ -52,6 +49,7 @@ SCENES = {
 FULL = {"n": (25, 50, 100, 200, 400), "courant": (0.1, 0.25, 0.5, 0.9, 1.0)}
 QUICK = {"n": (25, 50), "courant": (0.5, 1.0)}
 FINE = {"nx": 640, "ny": 32, "courant": 0.5}
+FINE_QUICK = {"nx": 200, "ny": 10, "courant": 0.5}
 MEASURES = ("err", "e_R", "e_R2", "energy")
 NAMES = {
     "err": "displacement",
@@ -59,16 +57,6 @@ NAMES = {
     "e_R2": "force, two-step mean",
     "energy": "energy",
 }
-
-
-def label(scheme, theta, mass, redist):
-    """Short name of a combination: THETA D*, NEWMARK C, THETA 0.55 C."""
-    return "%s%s %s%s" % (
-        scheme,
-        "" if theta == 0.5 else " %g" % theta,
-        mass[0],
-        "*" if redist else "",
-    )
 
 
 def grid(levels):
@@ -218,14 +206,14 @@ def measure(task):
     return result
 
 
-def fine_reference(store):
+def fine_reference(store, fine):
     """History of the fine run for Poisson 0.3, made once."""
     path = os.path.join(store, "poisson_fine.json")
     if not os.path.exists(path):
         with tempfile.TemporaryDirectory() as folder:
             deck, out = os.path.join(folder, "fine.k"), os.path.join(folder, "out")
             meta = make_bars.write(
-                deck, poisson=0.3, touch=0.5, tables=["glstat", "nodout"], **FINE
+                deck, poisson=0.3, touch=0.5, tables=["glstat", "nodout"], **fine
             )
             done = common.run(deck, out)
             if done["code"] != 0:
@@ -250,34 +238,17 @@ def start_up():
 
 def study(levels, store, jobs, repeats):
     """All runs, those that the store has already left out; returns every line."""
-    path = os.path.join(store, "runs.jsonl")
-    done = {}
-    if os.path.exists(path):
-        with open(path) as file:
-            for line in file:
-                run = json.loads(line)
-                done[key(run)] = run
-    wanted = list(grid(levels))
-    left = [run for run in wanted if key(run) not in done]
-    reference = fine_reference(store)
-    start = time.time()
-    with multiprocessing.Pool(jobs) as pool, open(path, "a") as file:
-        # Long runs first, so that no core waits at the end.
-        left.sort(key=lambda run: -run["n"] ** 2 / run["courant"])
-        tasks = [(run, repeats, reference) for run in left]
-        for k, result in enumerate(pool.imap_unordered(measure, tasks), 1):
-            file.write(json.dumps(result) + "\n")
-            file.flush()
-            done[key(result)] = result
-            if sys.stderr.isatty() or k % 200 == 0 or k == len(left):
-                print(
-                    "\r%d of %d runs, %.0f s" % (k, len(left), time.time() - start),
-                    end="",
-                    file=sys.stderr,
-                )
-    if left:
-        print(file=sys.stderr)
-    return [done[key(run)] for run in wanted]
+    reference = fine_reference(store, FINE_QUICK if levels is QUICK else FINE)
+    # Long runs first, so that no core waits at the end.
+    runs = sorted(grid(levels), key=lambda run: -run["n"] ** 2 / run["courant"])
+    found = common.sweep(
+        measure,
+        [(run, repeats, reference) for run in runs],
+        lambda task: key(task[0]),
+        store,
+        jobs,
+    )
+    return [found[key(run)] for run in grid(levels)]
 
 
 def time_to(runs, measure_name, goal):
@@ -324,7 +295,7 @@ def write_figures(results, out):
     import matplotlib.pyplot as plt
 
     colours = plt.get_cmap("tab20").colors
-    names = [label(*s) for s in SCHEMES]
+    names = [common.label(s) for s in SCHEMES]
     paths = []
     for scene, title in SCENES.items():
         figure, axes = plt.subplots(2, 4, figsize=(17, 8), sharey="col")
@@ -384,7 +355,7 @@ def describe(run):
     if run is None:
         return "not reached"
     return "%s, n %d, Courant %g: %.3f s" % (
-        label(run["scheme"], run["theta"], run["mass"], run["redist"]),
+        common.label(run),
         run["n"],
         run["courant"],
         run["cpu"],
@@ -454,7 +425,7 @@ def write_index(results, out, started, quick):
                 seconds(time_to([r for r in mine if r["scene"] == scene], "err", goal))
                 for scene in SCENES
             ]
-            lines.append("| %s | %s |" % (label(*scheme), " | ".join(cells)))
+            lines.append("| %s | %s |" % (common.label(scheme), " | ".join(cells)))
         lines.append("")
     lines += order_table(results)
     lines += failure_table(results)
@@ -471,16 +442,10 @@ def advice(results):
         for goal in (1.0e-2, 1.0e-3):
             run = best_choice(results, scene, goal)
             if run:
-                name = label(run["scheme"], run["theta"], run["mass"], run["redist"])
+                name = common.label(run)
                 wins[name] = wins.get(name, 0) + 1
     ranked = sorted(wins.items(), key=lambda item: -item[1])
-    grown = sorted(
-        {
-            label(r["scheme"], r["theta"], r["mass"], r["redist"])
-            for r in results
-            if r.get("growth")
-        }
-    )
+    grown = sorted({common.label(r) for r in results if r.get("growth")})
     return "Most often cheapest: %s. Energy grew, and the log said so, in some run of: %s." % (
         ", ".join("%s (%d)" % item for item in ranked[:4]) or "none",
         ", ".join(grown) or "none",
@@ -512,7 +477,7 @@ def order_table(results):
                 for name in ("err", "e_R2")
             ]
             cells.append(" / ".join("-" if p is None else "%.2f" % p for p in pair))
-        lines.append("| %s | %s |" % (label(*scheme), " | ".join(cells)))
+        lines.append("| %s | %s |" % (common.label(scheme), " | ".join(cells)))
     return lines + [""]
 
 
@@ -521,11 +486,7 @@ def failure_table(results):
     reasons = {}
     for r in results:
         if "failed" in r:
-            name = (
-                label(r["scheme"], r["theta"], r["mass"], r["redist"]),
-                r["scene"],
-                r["failed"][:110],
-            )
+            name = (common.label(r), r["scene"], r["failed"][:110])
             reasons[name] = reasons.get(name, 0) + 1
     lines = ["## Failures", ""]
     if not reasons:
@@ -572,20 +533,8 @@ def write_csv(results, out):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--fresh", action="store_true", help="forget earlier runs")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("--out", help="folder of the report")
-    a = parser.parse_args()
-    store = os.path.join(common.ROOT, "build", "report", "quick" if a.quick else "full")
-    out = a.out or (store if a.quick else os.path.join(common.ROOT, "doc", "report"))
-    os.makedirs(store, exist_ok=True)
-    os.makedirs(out, exist_ok=True)
-    if a.fresh and os.path.exists(os.path.join(store, "runs.jsonl")):
-        os.remove(os.path.join(store, "runs.jsonl"))
+    a = common.study_arguments(__doc__)
+    store, out = common.study_folders("report", a)
     started = start_up()
     results = study(QUICK if a.quick else FULL, store, a.jobs, 1 if a.quick else 3)
     write_csv(results, out)

@@ -4,7 +4,7 @@
 Columns, names and help come from `bipact --keywords`, so the deck cannot fall behind the table;
 the values, below, make a scene that runs: a block of quadrilaterals and triangles flies at a
 held base, with loads, a moved edge and every table. make doc writes it to
-input/cards/every_keyword.k. """
+input/cards/every_keyword.k."""
 
 import argparse
 import os

@@ -235,21 +235,31 @@ def bouncing(o, n=100, periods=1.0):
 
 
 def block_on_plane(
-    o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block"
+    o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block", base=0
 ):
-    """A block with its foot on the plane y = 0."""
+    """A block with its foot on the plane y = 0: a rigid wall, or with base=1 a body that is
+    fixed in all its nodes."""
     c = (young / density) ** 0.5
     dt = step(o, size[0] / n, c)
     tend = math.ceil(tend / dt - 1.0e-9) * dt
     nodes, elements = grid(o, 0.0, 0.0, size[0], size[1], n, max(1, n // 2), 1, 1, 1)
+    materials, ground = [(density, young, 0.0)], plane(o, 0.0, 0.0, 0.0, 1.0, mu)
+    if base:
+        low, cells = grid(
+            o, -0.5, -0.5, 2.5, 0.5, 2 * n, 1, 2, 1 + len(nodes), 1 + len(elements)
+        )
+        ground = ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,,,%r" % mu]
+        ground += node_set(9, [i for i, _, _ in low]) + ["*BOUNDARY_SPC_SET", "9,,1,1"]
+        nodes, elements, materials = nodes + low, elements + cells, 2 * materials
+        tables = [name.replace("RWFORC", "RCFORC") for name in tables]
     text = deck(
         o,
         title,
         nodes,
         elements,
-        [(density, young, 0.0)],
+        materials,
         controls(tend, dt, o, tables),
-        plane(o, 0.0, 0.0, 0.0, 1.0, mu) + extra(nodes),
+        ground + extra(nodes),
     )
     return text, {
         "nodes": nodes,
@@ -261,7 +271,7 @@ def block_on_plane(
     }
 
 
-def sliding(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7):
+def sliding(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7, base=0):
     """Set down without stress: the normal force oscillates about m g with period 4 H/c
     (`bounce`); the friction impulse differs from mu m g t by at most mu m g times that, so the
     velocity by mu g 4 H/c and the place by v 4 H/c."""
@@ -271,11 +281,12 @@ def sliding(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7):
         young,
         lambda nodes: curve(1, (0.0, g), (2 * tend, g))
         + gravity(o, 1, 0.0, -1.0)
-        + moving(o, v, 0.0),
+        + ["*INITIAL_VELOCITY_GENERATION", "1,2,,%r,%r" % turned(o, v, 0.0), ""],
         tend,
         ["GLSTAT", "MATSUM", "RWFORC"],
         mu,
         title="sliding block",
+        base=base,
     )
     return text, dict(meta, v=v, g=g)
 

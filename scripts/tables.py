@@ -112,7 +112,8 @@ def to_columns(names, numbers):
     data = {}
     for k, name in enumerate(names):
         column = np.ascontiguousarray(numbers[:, k])
-        whole = name in INTEGER_COLUMNS and np.array_equal(column, np.rint(column))
+        whole = name in INTEGER_COLUMNS and np.all(np.abs(column) < 2.0**53)
+        whole = whole and np.array_equal(column, np.rint(column))
         data[name] = column.astype(np.int64) if whole else column
     return data
 

@@ -33,7 +33,9 @@ contains
   end function mean_diagonal
 
   !> error, error2018 and eta of (r, u); m = mean_diagonal(W). noise [L], where given, is the
-  !> round-off of q and u as differences of larger numbers: misfits of that size count as met.
+  !> round-off of q and u as differences of larger numbers: misfits of that size count as met,
+  !> and mu times that, which is what the law makes of it. Where mu is large the natural map
+  !> does not see u_n < 0 (it divides by 1 + mu^2), so that is asked for apart.
   pure subroutine certify(m, mu, q, r, u, tolerance, certificate, noise)
     real(wp), intent(in) :: m
     real(wp), intent(in) :: mu(:)
@@ -43,12 +45,14 @@ contains
     real(wp), intent(in) :: tolerance
     type(certificate_t), intent(inout) :: certificate
     real(wp), intent(in), optional :: noise
-    real(wp) :: misfit, norm_r, norm_q, norm_u, bottom
+    real(wp) :: misfit, norm_r, norm_q, norm_u, bottom, round_off, depth
     integer :: a
     norm_r = sqrt(sum(r**2))
     norm_q = sqrt(sum(q**2))
     norm_u = sqrt(sum(u**2))
-    if (present(noise)) norm_q = max(norm_q, noise/tolerance)
+    round_off = 8.0_wp*epsilon(one)*max(norm_q, m*norm_r)
+    if (present(noise)) round_off = max(round_off, noise)
+    norm_q = max(norm_q, round_off*(one + maxval(mu))/tolerance)
     certificate%error = zero
     certificate%eta = zero
     certificate%error2018 = zero
@@ -62,7 +66,9 @@ contains
     bottom = norm_r*max(norm_u, norm_q)
     if (bottom > nothing) certificate%eta = misfit/bottom
     if (norm_q > nothing) certificate%error2018 = natural_map(one, mu, r, u)/norm_q
-    certificate%met = certificate%error <= tolerance .and. certificate%eta <= tolerance
+    depth = sqrt(sum(min(u(1, :), zero)**2))
+    certificate%met = certificate%error <= tolerance .and. certificate%eta <= tolerance &
+        .and. depth <= 10.0_wp*tolerance*max(m*norm_r, norm_q, norm_u)
   end subroutine certify
 
   !> |r - P_K(r - rho (u_n + mu |u_t|, u_t))| over all contacts.

@@ -2,11 +2,12 @@
 !> Gauss-Seidel over the contacts with the bi-potential local solver, and the direct solve for
 !> the statuses it has found.
 module cone_gauss_seidel
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify, mean_diagonal
   use cone_local, only: solve_local
+  use cone_pivoting, only: pivot_statuses
   use cone_polish, only: polish_statuses
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, size_cone_work, &
       contact_open, contact_slip
@@ -18,6 +19,9 @@ module cone_gauss_seidel
   !> A direct solve for the statuses is tried up to this many unknowns, and beyond it only when
   !> more sweeps than unknowns have been spent.
   integer, parameter :: small_system = 64
+
+  !> Sweeps after which complementary pivoting is tried, and up to how many contacts.
+  integer, parameter :: patience = 200, most_pivoted = 40
 
 contains
 
@@ -52,6 +56,10 @@ contains
       call certify(m, mu, q, r, work%u, options%tolerance, certificate)
       if (options%solver /= 'GS' .and. polish_due(sweep, work)) &
           call try_polish(options, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+      if (sweep == patience .and. options%solver /= 'GS' .and. size(q, 1) == 2 &
+          .and. size(mu) <= most_pivoted) call try_pivoting(options, w, q, mu, m, r, work, &
+          certificate)
       if (certificate%met) return
     end do
     call fail(status, status_numerical, 'the contact solve did not converge in '// &
@@ -177,6 +185,31 @@ contains
     r = work%trial
     work%u = u
   end subroutine try_polish
+
+  !> The statuses of a complementary path, solved directly; kept if the certificate is met.
+  subroutine try_pivoting(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    real(wp), intent(in) :: w(:, :)
+    real(wp), intent(in) :: q(:, :)
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout) :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    real(wp) :: start(2, size(mu))
+    integer :: kept(size(mu))
+    logical :: ok
+    kept = work%status
+    start(1, :) = one
+    call pivot_statuses(w, q, mu, work%status, start(2, :), ok)
+    certificate%pivotings = certificate%pivotings + 1
+    if (ok) call try_polish(options, w, q, mu, m, start, work, certificate)
+    if (certificate%met) then
+      r = start
+    else
+      work%status = kept
+    end if
+  end subroutine try_pivoting
 
   !> r in K, to round-off on the slip side.
   pure logical function in_cone(mu, r)

@@ -38,7 +38,7 @@ contains
     call solve_general(n, work%matrix, work%rhs, work%pivot, ok)
     if (.not. ok) return
     do k = 1, n
-      work%trial(work%unknown(1, k), work%unknown(2, k)) = work%rhs(k)
+      work%trial(work%unknown(1, k), work%unknown(2, k)) = work%rhs(k, 1)
     end do
     do a = 1, size(mu)
       if (work%status(a) /= contact_slip .or. d == 1) cycle
@@ -65,7 +65,7 @@ contains
         if (work%status(a) == contact_slip .and. d > 1) &
             work%matrix(i, j) = w(row, column) + slip_ratio(mu(a), r(:, a))*w(row, column + 1)
       end do
-      work%rhs(j) = -q(work%unknown(1, j), a)
+      work%rhs(j, 1) = -q(work%unknown(1, j), a)
     end do
   end subroutine fill_system
 

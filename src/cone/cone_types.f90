@@ -31,6 +31,7 @@ module cone_types
     integer :: sweeps = 0
     integer :: local_iterations = 0
     integer :: polishes = 0        !< direct solves for given statuses
+    integer :: pivotings = 0       !< paths of complementary pivoting
     logical :: met = .true.
   end type certificate_t
 
@@ -42,7 +43,7 @@ module cone_types
     real(wp), allocatable :: rho(:)        !< (nc) [1/flexibility]
     real(wp), allocatable :: trial(:, :)   !< (d, nc) reactions of a polish
     integer, allocatable :: status(:), tried(:)
-    real(wp), allocatable :: matrix(:, :), rhs(:)
+    real(wp), allocatable :: matrix(:, :), rhs(:, :)
     integer, allocatable :: pivot(:), unknown(:, :)
   end type cone_work_t
 
@@ -64,7 +65,7 @@ contains
     end if
     allocate (work%u(d, contacts), work%rho(contacts), work%trial(d, contacts))
     allocate (work%status(contacts), work%tried(contacts))
-    allocate (work%matrix(n, n), work%rhs(n), work%pivot(n), work%unknown(2, n))
+    allocate (work%matrix(n, n), work%rhs(n, 1), work%pivot(n), work%unknown(2, n))
     work%contacts = contacts
     work%d = d
   end subroutine size_cone_work

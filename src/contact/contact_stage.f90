@@ -2,18 +2,18 @@
 !> Contact of one stage of a step, for every scheme: from the free motion of the block to the
 !> reactions. It does not know the scheme: the stage has said what the motion means.
 module contact_stage
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, half
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify, mean_diagonal
   use cone_gauss_seidel, only: solve_cone
-  use cone_types, only: certificate_t, contact_open
+  use cone_types, only: certificate_t, contact_open, size_cone_work
   use contact_condense, only: relative_motion, spread_force
   use contact_types, only: contact_t
   use model_data, only: model_t
   implicit none
   private
-  public :: solve_contact, settle_contact
+  public :: solve_contact, correct_contact, settle_contact
 
 contains
 
@@ -46,12 +46,22 @@ contains
     if (contact%rows == 0) return
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
+    call find_reactions(contact, force, certificate, status)
+    contact%solves = contact%solves + 1
+    contact%solves_since_row = contact%solves_since_row + 1
+  end subroutine solve_contact
+
+  !> Reactions of the rows for q and the start in r, put into candidates and forces.
+  subroutine find_reactions(contact, force, certificate, status)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(inout) :: force(:, :)
+    type(certificate_t), intent(out) :: certificate
+    type(status_t), intent(inout) :: status
+    integer :: k
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
         certificate, status)
     call keep_worst(certificate, contact%worst)
     call keep_worst(certificate, contact%worst_since_row)
-    contact%solves = contact%solves + 1
-    contact%solves_since_row = contact%solves_since_row + 1
     contact%sweeps = contact%sweeps + certificate%sweeps
     contact%sweeps_since_row = contact%sweeps_since_row + certificate%sweeps
     do k = 1, contact%rows
@@ -62,7 +72,63 @@ contains
         call spread_force(contact, c, c%r, force)
       end associate
     end do
-  end subroutine solve_contact
+  end subroutine find_reactions
+
+  !> Corrects the reactions where W is known to fewer digits than the motion du (2, nodes),
+  !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the new
+  !> reactions, more the change of it; both (2, m) [F]. done: they meet the certificate as they
+  !> are.
+  subroutine correct_contact(contact, du, force, more, done, acting, status)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(inout) :: force(:, :)
+    real(wp), intent(out) :: more(:, :)
+    logical, intent(out) :: done
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    type(certificate_t) :: certificate
+    real(wp) :: motion(2), noise
+    integer :: k
+    done = .true.
+    if (contact%rows == 0) return
+    call size_cone_work(contact%work, contact%d, contact%rows)
+    do k = 1, contact%rows
+      associate (c => contact%candidate(contact%row_of(k)))
+        motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
+        contact%work%u(1, k) = c%gap + motion(1)
+        if (contact%d > 1) contact%work%u(2, k) = motion(2)
+        contact%r(:, k) = c%r(1:contact%d)
+        if (-contact%work%u(1, k) > half*contact%penetration_tolerance*c%length) done = .false.
+      end associate
+    end do
+    noise = gap_noise(contact, du)
+    call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
+        contact%cone%tolerance, certificate, noise)
+    done = done .and. (certificate%met .or. .not. acting)
+    if (done) return
+    contact%q = contact%work%u - reshape(matmul(contact%w, &
+        reshape(contact%r, [contact%d*contact%rows])), [contact%d, contact%rows])
+    more = force
+    force = zero
+    call find_reactions(contact, force, certificate, status)
+    more = force - more
+    acting = acting .or. any(contact%r(1, :) > zero)
+  end subroutine correct_contact
+
+  !> Round-off of a gap: terms that nearly cancel at a touch [L].
+  pure real(wp) function gap_noise(contact, du)
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: du(:, :)
+    real(wp) :: terms
+    integer :: i
+    terms = zero
+    do i = 1, contact%n
+      associate (c => contact%candidate(i))
+        if (c%valid) terms = terms + c%gap**2 + sum(du(:, c%node)**2) + sum(du(:, c%a)**2)
+      end associate
+    end do
+    gap_noise = 8.0_wp*epsilon(terms)*sqrt(terms)
+  end function gap_noise
 
   !> After the step: true gap and slip of every candidate from the motion x (2, m) of the block,
   !> the certificate of the reactions for that motion (to the round-off of gaps and motions,
@@ -75,16 +141,14 @@ contains
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
-    real(wp) :: motion(2), depth, terms
+    real(wp) :: motion(2), depth
     integer :: i, k
-    terms = zero
     do i = 1, contact%n
       associate (c => contact%candidate(i))
         motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
         c%u = [c%gap + motion(1), motion(2)]
         depth = max(zero, -c%u(1))
         if (.not. c%valid) cycle
-        terms = terms + c%gap**2 + sum(du(:, c%node)**2) + sum(du(:, c%a)**2)
         contact%pair(c%pair)%penetration = max(contact%pair(c%pair)%penetration, depth)
         contact%worst_penetration = max(contact%worst_penetration, depth/c%length)
         if (depth > contact%penetration_tolerance*c%length .and. c%held) &
@@ -102,7 +166,7 @@ contains
       contact%work%u(:, k) = contact%candidate(contact%row_of(k))%u(1:contact%d)
     end do
     call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
-        contact%cone%tolerance, certificate, 8.0_wp*epsilon(terms)*sqrt(terms))
+        contact%cone%tolerance, certificate, gap_noise(contact, du))
     call keep_worst(certificate, contact%worst)
     call keep_worst(certificate, contact%worst_since_row)
   end subroutine settle_contact

@@ -99,16 +99,16 @@ contains
     end do
   end subroutine dense_inverse
 
-  !> Solves the general system a x = b (a is destroyed, b becomes x); ok is false when it is
-  !> singular.
+  !> Solves the general system a x = b for the columns of b (n rows or more); a is destroyed, b
+  !> becomes x; ok is false when it is singular.
   subroutine solve_general(n, a, b, pivot, ok)
     integer, intent(in) :: n
     real(wp), intent(inout) :: a(:, :)
-    real(wp), intent(inout) :: b(:)
+    real(wp), intent(inout) :: b(:, :)
     integer, intent(inout) :: pivot(:)
     logical, intent(out) :: ok
     integer :: info
-    call dgesv(n, 1, a, size(a, 1), pivot, b, size(b), info)
+    call dgesv(n, size(b, 2), a, size(a, 1), pivot, b, size(b, 1), info)
     ok = info == 0
   end subroutine solve_general
 

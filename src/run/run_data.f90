@@ -57,7 +57,8 @@ module run_data
     real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (2, n) only with loads [F]
     real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) contact block
     real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
-    real(wp), allocatable :: correction(:, :)              !< (2, n) only with refinement
+    ! (2, n), only with refinement
+    real(wp), allocatable :: correction(:, :), b_kept(:, :)
     ! (2, n), only with prescribed motions or a table of reactions
     logical, allocatable :: active_motion(:)
     real(wp), allocatable :: given(:, :)                   !< motion of held dofs [L]

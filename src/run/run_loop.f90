@@ -12,7 +12,7 @@ module run_loop
       phase_update, phase_energy, phase_output, phase_other
   use contact_condense, only: build_w
   use contact_setup, only: find_candidates
-  use contact_stage, only: solve_contact, settle_contact
+  use contact_stage, only: solve_contact, correct_contact, settle_contact
   use contact_work, only: add_contact_step, contact_work_t
   use linalg_solver, only: solve_whole
   use output_tables, only: any_due, energies_due
@@ -74,7 +74,7 @@ contains
       if (run%plan%contact) call add_contact(run, acting, status)
       call run%solver%backward(run%x_last, run%x)
       run%solves = run%solves + 1
-      if (run%plan%refinement) call refine(run, stage)
+      if (run%plan%refinement) call refine(run, stage, acting, status)
       if (run%plan%motions) call restore_motions(run)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
@@ -88,28 +88,65 @@ contains
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance
 
-  !> One correction of x: the residual b + H' r - A x from the mass and the element strains,
-  !> solved with the same factor (Wilkinson 1963).
-  subroutine refine(run, stage)
+  !> Corrects x where the effective matrix is stiff; with contact also the reactions, until they
+  !> meet their certificate for the motion as it is. Each pass gains the digits that the factor
+  !> has, so two are enough, or none would be.
+  subroutine refine(run, stage, acting, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
-    integer :: k
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    integer, parameter :: most_passes = 3
+    integer :: pass
+    logical :: done
+    run%b_kept = run%b
+    if (run%plan%motions) run%b_kept = run%b_whole
+    call refine_motion(run, stage)
+    if (.not. run%plan%contact) return
+    do pass = 1, most_passes
+      call run%timers%enter(phase_contact)
+      call correct_contact(run%contact, run%x, run%force, run%x_last, done, acting, status)
+      if (done) return
+      run%b = zero
+      call add_block(run, run%x_last)
+      call add_correction(run)
+      call refine_motion(run, stage)
+    end do
+  end subroutine refine
+
+  !> One correction of x: the residual b + H' r - A x from the mass and the element strains,
+  !> solved with the same factor (Wilkinson 1963).
+  subroutine refine_motion(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
     call run%timers%enter(phase_product)
-    if (run%plan%motions) run%b = run%b_whole
+    run%b = run%b_kept
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
     call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
-    if (run%plan%contact) then
-      do k = 1, size(run%contact%block)
-        run%b(:, run%contact%block(k)) = run%b(:, run%contact%block(k)) + run%force(:, k)
-      end do
-    end if
+    if (run%plan%contact) call add_block(run, run%force)
+    call add_correction(run)
+  end subroutine refine_motion
+
+  !> Adds forces of the block (2, m) to b.
+  pure subroutine add_block(run, force)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: force(:, :)
+    integer :: k
+    do k = 1, size(run%contact%block)
+      run%b(:, run%contact%block(k)) = run%b(:, run%contact%block(k)) + force(:, k)
+    end do
+  end subroutine add_block
+
+  !> x = x + A^-1 b, held dofs kept.
+  subroutine add_correction(run)
+    type(run_t), intent(inout) :: run
     if (run%system%any_fixed) call clear_fixed(run%system, run%b)
     call run%timers%enter(phase_solve)
     call solve_whole(run%solver, run%b, run%correction)
     run%x = run%x + run%correction
     run%solves = run%solves + 1
-  end subroutine refine
+  end subroutine add_correction
 
   !> The step and its time, for messages.
   function moment(run) result(text)

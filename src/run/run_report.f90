@@ -8,7 +8,7 @@ module run_report
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
   use deck_echo, only: write_echo
-  use deck_problems, only: add_warning
+  use deck_problems, only: add_note, add_warning
   use run_data, only: run_t
   use run_plan, only: plan_line
   implicit none
@@ -88,6 +88,14 @@ contains
     if (run%ledger%first_growth >= 0) call add_warning(run%deck%problems, &
         'energy-growth: the energy rose by '//to_text(run%ledger%largest_growth)// &
         ' of the largest term; first seen at step '//to_text(run%ledger%first_growth))
+    if (run%contact%solves > 0 .and. .not. run%contact%worst%met) &
+        call add_warning(run%deck%problems, 'certificate: in some step the contact forces '// &
+        'meet their law only to error '//to_text(run%contact%worst%error)//', eta '// &
+        to_text(run%contact%worst%eta)//' for the motion as computed')
+    if (run%ledger%contact%allowed_growth > run%model%controls%growth*run%ledger%largest) &
+        call add_note(run%deck%problems, 'energy: closing penetrations that sliding along '// &
+        'deformed edges had made gave the bodies '// &
+        to_text(run%ledger%contact%allowed_growth))
     degrees = run%rotation*180.0_wp/acos(-1.0_wp)
     if (degrees > run%model%controls%rotation_warning) &
         call add_warning(run%deck%problems, 'rotation: element '// &

@@ -107,7 +107,8 @@ contains
     run%plan%refinement = ratio > refinement_ratio
     call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
         to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio))
-    if (run%plan%refinement) allocate (run%correction(2, run%system%n))
+    if (run%plan%refinement) &
+        allocate (run%correction(2, run%system%n), run%b_kept(2, run%system%n))
   end subroutine plan_refinement
 
   subroutine first_candidates(run, status)

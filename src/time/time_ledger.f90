@@ -168,11 +168,13 @@ contains
     if (abs(source) > zero) ledger%ratio = ledger%total/source
   end subroutine balance
 
-  !> How far the energy that the bodies were not given has risen above its minimum so far.
+  !> How far the energy that the bodies were not given has risen above its minimum so far. The
+  !> rise that closing penetrations explains (a place that moved along an edge which is not
+  !> straight any more) is the scheme's own, and reported apart.
   pure subroutine watch_growth(ledger)
     type(ledger_t), intent(inout) :: ledger
     real(wp) :: free
-    free = ledger%total - ledger%external - ledger%motion
+    free = ledger%total - ledger%external - ledger%motion - ledger%contact%allowed_growth
     ledger%lowest = min(ledger%lowest, free)
     if (.not. ledger%largest > zero) return
     ledger%largest_growth = max(ledger%largest_growth, (free - ledger%lowest)/ledger%largest)

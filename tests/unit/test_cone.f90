@@ -23,6 +23,7 @@ program test_cone
   call test_solutions(2)
   call test_complementarity(1)
   call test_complementarity(2)
+  call test_wedging()
   call test_open()
   call test_failure()
   call test_certificate()
@@ -132,6 +133,48 @@ contains
     call check_warm_start(w, q, mu, r, condition)
   end subroutine check_solution
 
+  !> Friction far beyond mu |W_nt| = W_nn, where sweeps go in circles: a solution exists for
+  !> every positive definite W, and complementary pivoting finds one. u_n may miss zero by the
+  !> certificate's own bound.
+  subroutine test_wedging()
+    type(cone_options_t) :: options
+    type(cone_work_t) :: work
+    type(certificate_t) :: certificate
+    type(status_t) :: status
+    real(wp) :: w(24, 24), q(2, 12), r(2, 12), mu(12), u(24), size_u
+    integer :: n, c, k, rescued, unmet, wrong
+    rescued = 0
+    unmet = 0
+    wrong = 0
+    do n = 1, 12
+      do c = 0, 3
+        call make_w(2*n, 10.0_wp**c, w(:2*n, :2*n))
+        do k = 1, n
+          call fill_random(q(:, k))
+        end do
+        q(1, 1) = -0.5_wp
+        do k = 1, 4
+          mu = 10.0_wp**k
+          r = zero
+          status = status_t()
+          call solve_cone(options, w(:2*n, :2*n), q(:, :n), mu(:n), r(:, :n), work, &
+              certificate, status)
+          if (failed(status) .or. .not. certificate%met) unmet = unmet + 1
+          rescued = rescued + certificate%pivotings
+          u(:2*n) = matmul(w(:2*n, :2*n), reshape(r(:, :n), [2*n])) &
+              + reshape(q(:, :n), [2*n])
+          size_u = max(norm2(q(:, :n)), norm2(u(:2*n)), &
+              norm2(r(:, :n))*mean_diagonal(w(:2*n, :2*n)))
+          if (any(u(1:2*n:2) < -10.0_wp*options%tolerance*size_u)) wrong = wrong + 1
+          if (any(abs(r(2, :n)) > (one + 8.0_wp*eps)*mu(:n)*r(1, :n))) wrong = wrong + 1
+        end do
+      end do
+    end do
+    call check_equal(unmet, 0, 'wedging: every certificate is met')
+    call check_equal(wrong, 0, 'wedging: cones and gaps')
+    call check_true(rescued > 0, 'wedging: some need complementary pivoting')
+  end subroutine test_wedging
+
   !> Signs of the law. With delta the misfit of the natural map, the dual cone is left by at
   !> most m delta, so u_n >= -(1 + mu) m delta; and with r in its cone e >= r_n u_n follows.
   subroutine check_law(w, q, mu, r, tolerance)
@@ -218,7 +261,7 @@ contains
     integer, intent(in) :: n
     real(wp), intent(in) :: w(:, :), q(:)
     real(wp), intent(out) :: exact(:)
-    real(wp) :: a(n, n), x(n)
+    real(wp) :: a(n, n), x(n), right(n, 1)
     integer :: code, k, pivot(n), solutions
     logical :: active(n), ok
     solutions = 0
@@ -233,7 +276,9 @@ contains
         a(k, k) = one
         x(k) = zero
       end do
-      call solve_general(n, a, x, pivot, ok)
+      right(:, 1) = x
+      call solve_general(n, a, right, pivot, ok)
+      x = right(:, 1)
       ! Solved to about cond eps; random data do not sit nearer to a change of status.
       if (any(x < -1.0e-12_wp) .or. any(matmul(w, x) + q < -1.0e-12_wp)) cycle
       solutions = solutions + 1

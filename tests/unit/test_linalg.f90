@@ -108,12 +108,13 @@ contains
   subroutine dense_solution(b, x)
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: x(:)
-    real(wp) :: copy(size(x), size(x))
+    real(wp) :: copy(size(x), size(x)), right(size(x), 1)
     integer :: pivot(size(x))
     logical :: ok
     copy = dense
-    x = reshape(b, [size(x)])
-    call solve_general(size(x), copy, x, pivot, ok)
+    right = reshape(b, [size(x), 1])
+    call solve_general(size(x), copy, right, pivot, ok)
+    x = right(:, 1)
     call check_true(ok, 'the dense solver accepts the matrix')
   end subroutine dense_solution
 
