@@ -41,12 +41,16 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--most", type=float, default=1.0e6, help="leave larger scenes out")
+    parser.add_argument("--figure", help="draw the growth into this file")
     a = parser.parse_args()
     program = os.path.join(common.ROOT, "build", "release", "bench", "step_cost")
     print("microseconds a step, bars in contact, tables off | on (a row every 10 steps)")
     print(
         "%8s " % "dofs"
-        + " ".join("%12s" % n.split()[0][:12] for n in PHASES)
+        + " ".join(
+            "%12s" % n.replace("matrix-vector ", "").replace("contact search", "search")[:12]
+            for n in PHASES
+        )
         + " %10s | %10s" % ("sum", "sum on")
     )
     rows = []
@@ -115,6 +119,27 @@ def main():
             for b, c in zip(rows[1:], rows)
         )
     )
+
+    if a.figure:
+        draw(rows, a.figure)
+
+
+def draw(rows, path):
+    """Cost of a step and its parts over the number of unknowns."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    names = ("whole step", "forward and backward pass", "reading the factor twice", "products")
+    figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
+    for k, name in enumerate(names, 2):
+        axes.loglog([r[0] for r in rows], [r[k] for r in rows], "os^v"[k - 2] + "-", label=name)
+    axes.set_xlabel("unknowns")
+    axes.set_ylabel("microseconds a step")
+    axes.grid(True, alpha=0.3)
+    axes.legend(fontsize=8)
+    figure.savefig(path, dpi=80)
 
 
 if __name__ == "__main__":
