@@ -164,7 +164,7 @@ test-programs: $(programs)
 
 bench-programs: $(bench-programs)
 
-$(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(LIB) $(B)/flags
+$(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/flags
 	$(link)
 
 $(programs): $(B)/tests/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/flags

@@ -31,6 +31,7 @@ module cone_types
     integer :: sweeps = 0
     integer :: local_iterations = 0
     integer :: polishes = 0        !< direct solves for given statuses
+    integer :: newton_steps = 0
     integer :: pivotings = 0       !< paths of complementary pivoting
     logical :: met = .true.
   end type certificate_t

@@ -15,7 +15,8 @@ module linalg_dense
     real(wp), allocatable :: l(:, :)    !< lower triangle of the Cholesky factor
   end type dense_spd_t
 
-  public :: dense_factor, dense_solve, dense_inverse, solve_general, largest_eigenvalue_2
+  public :: dense_factor, dense_solve, dense_inverse, solve_general, largest_eigenvalue_2, &
+      largest_eigenvalue
 
   interface
     subroutine dpotrf(uplo, n, a, lda, info)
@@ -121,5 +122,34 @@ contains
     shear = half*(a(1, 2) + a(2, 1))
     largest_eigenvalue_2 = mean + sqrt(difference**2 + shear**2)
   end function largest_eigenvalue_2
+
+  !> Largest eigenvalue of the symmetric part of a matrix of order 1 to 3. Order 3: the
+  !> trigonometric root of the characteristic polynomial (Smith 1961).
+  pure real(wp) function largest_eigenvalue(a)
+    real(wp), intent(in) :: a(:, :)
+    real(wp) :: b(3, 3), mean, spread, half_determinant
+    integer :: i
+    select case (size(a, 1))
+    case (1)
+      largest_eigenvalue = a(1, 1)
+    case (2)
+      largest_eigenvalue = largest_eigenvalue_2(a)
+    case default
+      b = half*(a + transpose(a))
+      mean = (b(1, 1) + b(2, 2) + b(3, 3))/3.0_wp
+      do i = 1, 3
+        b(i, i) = b(i, i) - mean
+      end do
+      spread = sqrt(sum(b**2)/6.0_wp)
+      largest_eigenvalue = mean
+      if (.not. spread > zero) return
+      b = b/spread
+      half_determinant = half*(b(1, 1)*(b(2, 2)*b(3, 3) - b(2, 3)*b(3, 2)) &
+          - b(1, 2)*(b(2, 1)*b(3, 3) - b(2, 3)*b(3, 1)) &
+          + b(1, 3)*(b(2, 1)*b(3, 2) - b(2, 2)*b(3, 1)))
+      largest_eigenvalue = mean &
+          + 2.0_wp*spread*cos(acos(min(one, max(-one, half_determinant)))/3.0_wp)
+    end select
+  end function largest_eigenvalue
 
 end module linalg_dense

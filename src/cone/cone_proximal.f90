@@ -1,0 +1,67 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The proximal point method with Newton inside: W + alpha I has full rank, and alpha goes down
+!> as long as Newton follows (the PPA of Acary, Bremond & Huber 2018, with another rule for
+!> alpha).
+module cone_proximal
+  use base_kinds, only: wp, zero, one
+  use cone_blocks, only: dense_of_blocks
+  use cone_newton, only: newton_solve, size_newton
+  use cone_scaled, only: scaled_t, look
+  use cone_types, only: certificate_t
+  implicit none
+  private
+  public :: proximal_newton
+
+  integer, parameter :: most_outer = 300, most_newton = 40
+  real(wp), parameter :: first_alpha = 1.0e-1_wp
+
+contains
+
+  !> From r of p to r that meets the tolerance, or the best on the way. plain_first: one Newton
+  !> attempt on W itself. Where forces must travel along a self-stress of the bodies until a
+  !> contact opens or slips, alpha times the distance is the error of a step: it does not fall
+  !> on the way, so the path goes on from the last point, not from the best.
+  subroutine proximal_newton(p, tolerance, plain_first, certificate)
+    type(scaled_t), intent(inout) :: p
+    real(wp), intent(in) :: tolerance
+    logical, intent(in) :: plain_first
+    type(certificate_t), intent(inout) :: certificate
+    type(certificate_t) :: trial
+    real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: best, last
+    real(wp) :: alpha, norm, goal
+    integer :: outer, steps
+    if (.not. allocated(p%dense)) then
+      allocate (p%dense(size(p%q), size(p%q)))
+      call dense_of_blocks(p%w, p%dense)
+      call size_newton(p%newton, size(p%q, 1), size(p%q, 2))
+    end if
+    best = p%r
+    alpha = merge(zero, first_alpha, plain_first)
+    do outer = 1, most_outer
+      last = p%r
+      goal = 0.1_wp*tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
+      call newton_solve(p%dense, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &
+          norm, steps)
+      certificate%newton_steps = certificate%newton_steps + steps
+      trial = certificate
+      call look(p, tolerance, trial)
+      if (trial%error < certificate%error) then
+        best = p%r
+        certificate = trial
+      end if
+      if (trial%met) certificate = trial
+      if (trial%met) return
+      if (.not. alpha > zero) then
+        alpha = first_alpha
+        p%r = best
+      else if (norm > 1.0e-3_wp*alpha) then
+        alpha = min(one, 4.0_wp*alpha)
+        p%r = last
+      else
+        alpha = 0.2_wp*alpha
+      end if
+    end do
+    p%r = best
+  end subroutine proximal_newton
+
+end module cone_proximal

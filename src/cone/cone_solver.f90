@@ -1,0 +1,161 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The contact problem u = W r + q on blocks, in the plane and in space. Groups of contacts that
+!> do not know each other are solved one by one; in each: sweeps, accelerated sweeps, and Newton
+!> with a proximal loop where it is expected to be the cheaper. Every answer is certified.
+module cone_solver
+  use base_kinds, only: wp, zero, half
+  use base_status, only: status_t, fail, status_numerical
+  use base_strings, only: to_text
+  use cone_blocks, only: flexibility_t, motions, mean_of_diagonal, find_components, &
+      take_component
+  use cone_certificate, only: certify
+  use cone_proximal, only: proximal_newton
+  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, accelerate, look, chunk
+  use cone_types, only: cone_options_t, certificate_t
+  implicit none
+  private
+  public :: solve_contacts
+
+  integer, parameter :: patience = 30          !< sweeps before the acceleration
+  integer, parameter :: trial = 80             !< sweeps before a Newton that costs more
+  integer, parameter :: span = 100             !< sweeps that must halve the error
+  integer, parameter :: largest_newton = 2000  !< unknowns of a dense Newton step
+  !> Newton is expected to take about ten steps of n^3/2 operations at twice the speed of sweeps,
+  !> which take six operations a number of W.
+  real(wp), parameter :: newton_weight = 10.0_wp, sweep_weight = 6.0_wp
+
+  !> What is known of the course of the iterations.
+  type :: course_t
+    real(wp) :: start = huge(1.0_wp)     !< error at sweep `patience`
+    real(wp) :: best = huge(1.0_wp)
+    real(wp) :: marked = huge(1.0_wp)    !< error at the last mark
+    integer :: mark = 0
+    integer :: wait = 0                  !< no Newton before this sweep
+    logical :: stalled = .false.
+    logical :: tried_newton = .false.
+  end type course_t
+
+contains
+
+  !> Reactions r (d, nc) [F] and motions u (d, nc) [L] for W [L/F], q (d, nc) [L], mu (nc). r on
+  !> entry is the start where options%warm_start. Fails when no means meets the tolerance; the
+  !> certificate says how near it came.
+  subroutine solve_contacts(options, flexibility, q, mu, r, u, certificate, status)
+    type(cone_options_t), intent(in) :: options
+    type(flexibility_t), intent(in) :: flexibility
+    real(wp), intent(in) :: q(:, :), mu(:)
+    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(out) :: u(:, :)
+    type(certificate_t), intent(out) :: certificate
+    type(status_t), intent(inout) :: status
+    integer, allocatable :: first(:), member(:), place(:)
+    type(flexibility_t) :: part
+    integer :: k
+    if (.not. options%warm_start) r = zero
+    call find_components(flexibility, first, member)
+    allocate (place(flexibility%contacts))
+    do k = 1, size(first) - 1
+      associate (list => member(first(k):first(k + 1) - 1))
+        call take_component(flexibility, list, place, part)
+        call solve_component(options, part, q(:, list), mu(list), list, r, certificate)
+      end associate
+    end do
+    call motions(flexibility, q, r, u)
+    call certify(mean_of_diagonal(flexibility), mu, q, r, u, options%tolerance, certificate)
+    if (.not. certificate%met) call fail(status, status_numerical, &
+        'the contact solve did not converge in '//to_text(certificate%sweeps)//' sweeps and '// &
+        to_text(certificate%newton_steps)//' Newton steps: error '// &
+        to_text(certificate%error)//', eta '//to_text(certificate%eta), &
+        hint='raise MAXIT or TOL')
+  end subroutine solve_contacts
+
+  !> One component; its contacts are list in r (d, all).
+  subroutine solve_component(options, part, q, mu, list, r, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(flexibility_t), intent(in) :: part
+    real(wp), intent(in) :: q(:, :), mu(:)
+    integer, intent(in) :: list(:)
+    real(wp), intent(inout) :: r(:, :)
+    type(certificate_t), intent(inout) :: certificate
+    type(certificate_t) :: own
+    type(scaled_t) :: p
+    real(wp) :: m, largest
+    if (all(q(1, :) >= zero)) then
+      r(:, list) = zero
+      return
+    end if
+    m = mean_of_diagonal(part)
+    largest = maxval(abs(q))
+    call scale_problem(part, q, mu, r(:, list), m, largest, p)
+    call iterate(options, p, own)
+    r(:, list) = p%r*(largest/m)
+    certificate%sweeps = max(certificate%sweeps, own%sweeps)
+    certificate%newton_steps = certificate%newton_steps + own%newton_steps
+    certificate%local_iterations = certificate%local_iterations + own%local_iterations
+  end subroutine solve_component
+
+  !> Chunks of sweeps until the certificate is met; Newton when it is due.
+  subroutine iterate(options, p, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(inout) :: p
+    type(certificate_t), intent(inout) :: certificate
+    type(course_t) :: course
+    if (options%solver == 'PROX' .or. options%solver == 'NEWTON') then
+      call look(p, options%tolerance, certificate)
+      call proximal_newton(p, options%tolerance, options%solver == 'NEWTON', certificate)
+      if (certificate%met) return
+    end if
+    do while (certificate%sweeps < options%max_sweeps)
+      call sweep_chunk(options, p, certificate)
+      call look(p, options%tolerance, certificate)
+      if (certificate%met) return
+      call watch(options, p, certificate, course)
+      if (newton_due(options, p, certificate, course)) then
+        call proximal_newton(p, options%tolerance, .not. course%tried_newton, certificate)
+        if (certificate%met) return
+        course%tried_newton = .true.
+        course%wait = 3*certificate%sweeps
+      end if
+    end do
+  end subroutine iterate
+
+  !> Starts the acceleration; where a span of sweeps does not halve the error, changes between
+  !> plain and accelerated sweeps.
+  subroutine watch(options, p, certificate, course)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(inout) :: p
+    type(certificate_t), intent(in) :: certificate
+    type(course_t), intent(inout) :: course
+    course%best = min(course%best, certificate%error)
+    if (certificate%sweeps <= patience) course%start = certificate%error
+    if (options%solver == 'GS') return
+    if (certificate%sweeps == patience) call accelerate(p, .true.)
+    if (certificate%sweeps < course%mark + span) return
+    course%stalled = certificate%error > half*course%marked
+    course%marked = certificate%error
+    course%mark = certificate%sweeps
+    if (course%stalled) call accelerate(p, .not. p%accelerated)
+  end subroutine watch
+
+  !> Newton is due where sweeps stall, or would cost more at their rate.
+  pure logical function newton_due(options, p, certificate, course)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(in) :: p
+    type(certificate_t), intent(in) :: certificate
+    type(course_t), intent(in) :: course
+    real(wp) :: left, n, newton
+    n = real(size(p%q), wp)
+    newton = newton_weight*n**3/(sweep_weight*size(p%w%block))
+    newton_due = .false.
+    if (options%solver == 'GS' .or. options%solver == 'ANDERSON') return
+    if (n > largest_newton .or. certificate%sweeps <= course%wait) return
+    if (certificate%sweeps < 2*chunk) return
+    if (certificate%sweeps < trial .and. newton > trial) return
+    left = options%max_sweeps
+    if (certificate%sweeps <= patience) left = 10*span
+    if (course%best < course%start) left = min(left, (certificate%sweeps - patience) &
+        *log(options%tolerance/course%best)/log(course%best/course%start))
+    newton_due = course%stalled .or. left > newton
+  end function newton_due
+
+end module cone_solver
