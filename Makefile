@@ -13,6 +13,7 @@ endif
 
 B := build/$(FLAVOUR)
 BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
+FCLIB := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
 Q := $(if $(V),,@)
 
@@ -31,7 +32,7 @@ light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench
          stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: $(BIN) ## build bin/bipact (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+all: $(BIN) $(if $(wildcard src/fclib/*.f90),$(FCLIB)) ## build bin/bipact, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
 
 demo: ## install what is missing, build, run the two-bar impact and draw its figures
 	+@$(again) venv
@@ -124,8 +125,14 @@ ifndef LDFLAGS
 LDFLAGS := $(if $(call archive,gfortran),-static-libgfortran)
 endif
 
+# HDF5, for bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
+HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
+                /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
+HDF5_LIBS ?= $(if $(findstring serial,$(HDF5_MODULES)),-lhdf5_serial_fortran -lhdf5_serial,-lhdf5_fortran -lhdf5)
+
 version := $(B)/gen/base_version.f90
 sources := $(wildcard src/*/*.f90 src/*/*.F90) $(version)
+fclib := $(wildcard src/fclib/*.f90)
 support := $(wildcard tests/support/*.f90)
 units := $(wildcard tests/unit/test_*.f90)
 benches := $(wildcard bench/*.f90)
@@ -146,7 +153,8 @@ endif
 define compile
 @mkdir -p $(@D) $(B)/mod
 @echo "  FC   $<"
-$(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) -J$(B)/mod -c $< -o $@ \
+$(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) \
+  $(if $(filter src/fclib/%,$<),-I$(HDF5_MODULES)) -J$(B)/mod -c $< -o $@ \
   2>$(@:.o=.log) || { cat $(@:.o=.log) >&2; exit 1; }; cat $(@:.o=.log) >&2
 endef
 
@@ -160,6 +168,12 @@ endef
 $(BIN): $(B)/obj/main.o $(LIB) $(B)/flags
 	$(link)
 
+$(FCLIB): $(call object,$(fclib)) $(LIB) $(B)/flags
+	@mkdir -p $(@D)
+	@echo "  LINK $@"
+	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(HDF5_LIBS) \
+	  || { echo 'Linking failed. If HDF5 was not found: run "make deps".' >&2; exit 1; }
+
 test-programs: $(programs)
 
 bench-programs: $(bench-programs)
@@ -171,7 +185,7 @@ $(programs): $(B)/tests/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/fl
 	$(link)
 
 # Made anew, also when only the list of sources (in deps.mk) changed: no stale member stays in it.
-$(LIB): $(call object,$(filter-out src/run/main.f90,$(sources))) $(B)/deps.mk
+$(LIB): $(call object,$(filter-out src/run/main.f90 $(fclib),$(sources))) $(B)/deps.mk
 	$(Q)rm -f $@
 	$(Q)ar rcs $@ $(filter %.o,$^)
 

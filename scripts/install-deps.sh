@@ -28,6 +28,7 @@ look() {
   has_library lapack || missing="$missing liblapack-dev"
   has_library blas || missing="$missing libblas-dev"
   has_library metis || missing="$missing libmetis-dev"
+  has_library hdf5_serial_fortran || has_library hdf5_fortran || missing="$missing libhdf5-dev"
   # An existing .venv of ours shows that Python can make one, and is quicker to ask.
   [ -x .venv/bin/python ] || "$python" -c 'import venv, ensurepip' >/dev/null 2>&1 \
     || missing="$missing python3 python3-venv"
@@ -42,8 +43,8 @@ fi
 
 if ! command -v apt-get >/dev/null 2>&1; then
   echo "Missing (Debian package names):$missing"
-  echo "bipact needs gfortran, make, LAPACK, BLAS and METIS with their headers, and python3 with"
-  echo "venv. Please install them with the package manager of this system, then try again."
+  echo "bipact needs gfortran, make, LAPACK, BLAS, METIS and HDF5 (Fortran) with their headers,"
+  echo "and python3 with venv. Please install them with the package manager of this system, then try again."
   exit 1
 fi
 

@@ -8,14 +8,16 @@
 
 BEGIN {
   # Lowest first. A layer may use itself and all lower ones, unless `only` or `never` says less.
-  n = split("base linalg cone deck material element model scene contact assembly time output run", \
+  n = split("base linalg cone fclib deck material element model scene contact assembly time output run", \
             order, " ")
   for (i = 1; i <= n; i++) rank[order[i]] = i
   only["cone"] = " base linalg "        # the contact solver is usable without the rest
+  only["fclib"] = " base linalg cone "  # its program reads files of contact problems
   only["deck"] = " base "               # the reader knows no mechanics
   never["contact"] = " material element "
 
-  main = "src/run/main.f90"
+  main["src/run/main.f90"]
+  main["src/fclib/fclib_main.f90"]
   for (i = 1; i < ARGC; i++) register(ARGV[i])
 }
 
@@ -36,7 +38,7 @@ function register(path,   part, n, name, folder) {
   layer[path] = (folder == "gen") ? "base" : folder
   if (!(layer[path] in rank))
     fail(path, "folder " folder " is not a layer; the layers are listed in scripts/mkdeps.awk")
-  else if (path != main && index(name, layer[path] "_") != 1)
+  else if (!(path in main) && index(name, layer[path] "_") != 1)
     fail(path, "the file name must begin with its folder: " layer[path] "_...")
 }
 
@@ -47,8 +49,8 @@ function register(path,   part, n, name, folder) {
 }
 
 words == 2 && word[1] == "program" {
-  if (layer[FILENAME] != "" && FILENAME != main)
-    fail(FILENAME ":" FNR, "a program belongs to " main)
+  if (layer[FILENAME] != "" && !(FILENAME in main))
+    fail(FILENAME ":" FNR, "a program belongs to src/run/main.f90 or src/fclib/fclib_main.f90")
   program[FILENAME] = word[2]
 }
 
@@ -62,7 +64,7 @@ words == 2 && word[1] == "module" && FILENAME !~ /^(tests\/unit|bench)\// {
 text ~ /^[ \t]*use([ \t]*,[ \t]*(non_)?intrinsic[ \t]*|[ \t]*)(::[ \t]*|[ \t])[a-z]/ {
   sub(/^[ \t]*use[ \t]*(,[ \t]*(non_)?intrinsic)?[ \t]*(::)?[ \t]*/, "", text)
   sub(/[^a-z0-9_].*/, "", text)
-  if (text ~ /^(iso_c_binding|iso_fortran_env|ieee_.*|omp_lib)$/) next
+  if (text ~ /^(iso_c_binding|iso_fortran_env|ieee_.*|omp_lib|hdf5)$/) next
   if ((FILENAME, text) in line_of) next
   line_of[FILENAME, text] = FNR
   used[FILENAME] = used[FILENAME] " " text
@@ -86,7 +88,7 @@ END {
   for (i = 1; i < ARGC; i++) {
     path = ARGV[i]
     name = name_of[path]
-    if (path == main || path ~ /^(tests\/unit|bench)\//) {
+    if (path in main || path ~ /^(tests\/unit|bench)\//) {
       if (!(path in program)) fail(path, "no program statement found")
     } else if (!(path in module)) fail(path, "no module statement found")
 

@@ -17,6 +17,9 @@ module cone_anderson
     real(wp), allocatable :: g_last(:), f_last(:)
   end type anderson_t
 
+  !> Combinations beyond this come from differences that are parallel to round-off.
+  real(wp), parameter :: largest_weight = 1.0e4_wp
+
 contains
 
   !> Forgets what it holds; makes the space for n unknowns once.
@@ -61,6 +64,7 @@ contains
         gram(j, j) = gram(j, j)*(one + 1.0e-10_wp)
       end do
       call solve_general(k, gram, gamma(:k, :), pivot, ok)
+      ok = ok .and. all(abs(gamma(:k, 1)) <= largest_weight)
       if (ok) then
         do j = 1, k
           g = g - gamma(j, 1)*memory%dg(:, j)

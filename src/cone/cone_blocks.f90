@@ -72,7 +72,8 @@ contains
             end if
             if (pass == 1) cycle
             flexibility%column(place(b)) = b
-            associate (entry => flexibility%block(i - d*(a - 1), columns(k) - d*(b - 1), place(b)))
+            associate (entry => flexibility%block(i - d*(a - 1), columns(k) - d*(b - 1), &
+                place(b)))
               entry = entry + values(k)
             end associate
           end do

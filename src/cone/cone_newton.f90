@@ -20,6 +20,7 @@ module cone_newton
 
 contains
 
+  !> Space for that many contacts of d components.
   pure subroutine size_newton(work, d, contacts)
     type(newton_work_t), intent(inout) :: work
     integer, intent(in) :: d, contacts
@@ -86,7 +87,7 @@ contains
     end do
   end subroutine natural_map
 
-  !> dP/dtau: zero, the identity, or on the slip side (methods of Joli & Feng 2008).
+  !> dP/dtau: zero, the identity, or on the slip side that of the cone (Joli & Feng 2008).
   pure subroutine derivative(mu, tau, projected, status, part)
     real(wp), intent(in) :: mu, tau(:), projected(:)
     integer, intent(in) :: status

@@ -4,10 +4,9 @@
 !> alpha).
 module cone_proximal
   use base_kinds, only: wp, zero, one
-  use cone_blocks, only: dense_of_blocks
-  use cone_newton, only: newton_solve, size_newton
-  use cone_scaled, only: scaled_t, look
-  use cone_types, only: certificate_t
+  use cone_newton, only: newton_solve
+  use cone_scaled, only: scaled_t, look, make_dense, late
+  use cone_types, only: cone_options_t, certificate_t
   implicit none
   private
   public :: proximal_newton
@@ -21,30 +20,27 @@ contains
   !> attempt on W itself. Where forces must travel along a self-stress of the bodies until a
   !> contact opens or slips, alpha times the distance is the error of a step: it does not fall
   !> on the way, so the path goes on from the last point, not from the best.
-  subroutine proximal_newton(p, tolerance, plain_first, certificate)
+  subroutine proximal_newton(options, p, plain_first, certificate)
+    type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
-    real(wp), intent(in) :: tolerance
     logical, intent(in) :: plain_first
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
     real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: best, last
     real(wp) :: alpha, norm, goal
     integer :: outer, steps
-    if (.not. allocated(p%dense)) then
-      allocate (p%dense(size(p%q), size(p%q)))
-      call dense_of_blocks(p%w, p%dense)
-      call size_newton(p%newton, size(p%q, 1), size(p%q, 2))
-    end if
+    call make_dense(p)
     best = p%r
     alpha = merge(zero, first_alpha, plain_first)
     do outer = 1, most_outer
+      if (late(options)) exit
       last = p%r
-      goal = 0.1_wp*tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
+      goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
       call newton_solve(p%dense, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &
           norm, steps)
       certificate%newton_steps = certificate%newton_steps + steps
       trial = certificate
-      call look(p, tolerance, trial)
+      call look(p, options%tolerance, trial)
       if (trial%error < certificate%error) then
         best = p%r
         certificate = trial

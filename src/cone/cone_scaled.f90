@@ -4,15 +4,15 @@
 module cone_scaled
   use base_kinds, only: wp, zero, one
   use cone_anderson, only: anderson_t, start_anderson, extrapolate
-  use cone_blocks, only: flexibility_t, motions
+  use cone_blocks, only: flexibility_t, motions, dense_of_blocks
   use cone_certificate, only: certify
   use cone_local, only: solve_local, project_on_cone
-  use cone_newton, only: newton_work_t
+  use cone_newton, only: newton_work_t, size_newton
   use cone_types, only: cone_options_t, certificate_t
   use linalg_dense, only: largest_eigenvalue
   implicit none
   private
-  public :: scale_problem, sweep_chunk, accelerate, look
+  public :: scale_problem, sweep_chunk, accelerate, look, make_dense, late
 
   !> Sweeps between two looks at the error; pairs that the acceleration keeps.
   integer, parameter, public :: chunk = 10
@@ -68,6 +68,25 @@ contains
     call motions(p%w, p%q, p%r, p%u)
     call certify(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
   end subroutine look
+
+  !> Is the time that was given over?
+  logical function late(options)
+    type(cone_options_t), intent(in) :: options
+    real(wp) :: now
+    late = .false.
+    if (options%deadline >= huge(now)) return
+    call cpu_time(now)
+    late = now > options%deadline
+  end function late
+
+  !> W as a dense matrix and the space for Newton, once.
+  subroutine make_dense(p)
+    type(scaled_t), intent(inout) :: p
+    if (allocated(p%dense)) return
+    allocate (p%dense(size(p%q), size(p%q)))
+    call dense_of_blocks(p%w, p%dense)
+    call size_newton(p%newton, size(p%q, 1), size(p%q, 2))
+  end subroutine make_dense
 
   !> Some sweeps; the last of them always plain, so that r is in its cones.
   subroutine sweep_chunk(options, p, certificate)

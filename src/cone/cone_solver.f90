@@ -3,15 +3,18 @@
 !> do not know each other are solved one by one; in each: sweeps, accelerated sweeps, and Newton
 !> with a proximal loop where it is expected to be the cheaper. Every answer is certified.
 module cone_solver
-  use base_kinds, only: wp, zero, half
+  use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
   use cone_blocks, only: flexibility_t, motions, mean_of_diagonal, find_components, &
       take_component
   use cone_certificate, only: certify
+  use cone_pivoting, only: pivot_statuses
+  use cone_polish, only: polish_statuses
   use cone_proximal, only: proximal_newton
-  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, accelerate, look, chunk
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, accelerate, look, make_dense, &
+      late, chunk
+  use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work
   implicit none
   private
   public :: solve_contacts
@@ -19,9 +22,10 @@ module cone_solver
   integer, parameter :: patience = 30          !< sweeps before the acceleration
   integer, parameter :: trial = 80             !< sweeps before a Newton that costs more
   integer, parameter :: span = 100             !< sweeps that must halve the error
+  integer, parameter :: most_pivoted = 40      !< contacts of a complementary path
   integer, parameter :: largest_newton = 2000  !< unknowns of a dense Newton step
-  !> Newton is expected to take about ten steps of n^3/2 operations at twice the speed of sweeps,
-  !> which take six operations a number of W.
+  !> Newton is expected to take about ten steps of n^3/2 operations at twice the speed of
+  !> sweeps, which take six operations a number of W.
   real(wp), parameter :: newton_weight = 10.0_wp, sweep_weight = 6.0_wp
 
   !> What is known of the course of the iterations.
@@ -57,11 +61,13 @@ contains
     do k = 1, size(first) - 1
       associate (list => member(first(k):first(k + 1) - 1))
         call take_component(flexibility, list, place, part)
-        call solve_component(options, part, q(:, list), mu(list), list, r, certificate)
+        call solve_component(options, part, q(:, list), mu(list), list, r, &
+            certificate)
       end associate
     end do
     call motions(flexibility, q, r, u)
-    call certify(mean_of_diagonal(flexibility), mu, q, r, u, options%tolerance, certificate)
+    call certify(mean_of_diagonal(flexibility), mu, q, r, u, options%tolerance, &
+        certificate)
     if (.not. certificate%met) call fail(status, status_numerical, &
         'the contact solve did not converge in '//to_text(certificate%sweeps)//' sweeps and '// &
         to_text(certificate%newton_steps)//' Newton steps: error '// &
@@ -102,22 +108,53 @@ contains
     type(course_t) :: course
     if (options%solver == 'PROX' .or. options%solver == 'NEWTON') then
       call look(p, options%tolerance, certificate)
-      call proximal_newton(p, options%tolerance, options%solver == 'NEWTON', certificate)
+      call proximal_newton(options, p, options%solver == 'NEWTON', certificate)
       if (certificate%met) return
     end if
     do while (certificate%sweeps < options%max_sweeps)
+      if (late(options)) return
       call sweep_chunk(options, p, certificate)
       call look(p, options%tolerance, certificate)
       if (certificate%met) return
       call watch(options, p, certificate, course)
       if (newton_due(options, p, certificate, course)) then
-        call proximal_newton(p, options%tolerance, .not. course%tried_newton, certificate)
+        call proximal_newton(options, p, .not. course%tried_newton, certificate)
+        if (certificate%met) return
+        if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted .and. &
+            .not. course%tried_newton) call try_pivoting(p, options%tolerance, certificate)
         if (certificate%met) return
         course%tried_newton = .true.
         course%wait = 3*certificate%sweeps
       end if
     end do
   end subroutine iterate
+
+  !> In the plane, where contacts wedge: the statuses of a complementary path, solved directly.
+  subroutine try_pivoting(p, tolerance, certificate)
+    type(scaled_t), intent(inout) :: p
+    real(wp), intent(in) :: tolerance
+    type(certificate_t), intent(inout) :: certificate
+    type(certificate_t) :: trial
+    type(cone_work_t) :: work
+    real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: kept, start
+    logical :: ok
+    call make_dense(p)
+    call size_cone_work(work, 2, size(p%mu))
+    start(1, :) = one
+    call pivot_statuses(p%dense, p%q, p%mu, work%status, start(2, :), ok)
+    certificate%pivotings = certificate%pivotings + 1
+    if (ok) call polish_statuses(p%dense, p%q, p%mu, start, work, ok)
+    if (.not. ok) return
+    kept = p%r
+    p%r = work%trial
+    trial = certificate
+    call look(p, tolerance, trial)
+    if (trial%met) then
+      certificate = trial
+    else
+      p%r = kept
+    end if
+  end subroutine try_pivoting
 
   !> Starts the acceleration; where a span of sweeps does not halve the error, changes between
   !> plain and accelerated sweeps.

@@ -19,6 +19,7 @@ module cone_types
     real(wp) :: local_tolerance = 1.0e-2_wp
     integer :: max_local = 50
     logical :: warm_start = .true.
+    real(wp) :: deadline = huge(1.0_wp)  !< processor seconds (cpu_time) at which to give up
   end type cone_options_t
 
   !> Every answer carries it (conventions: error is unit-free, eta the normalised bi-potential

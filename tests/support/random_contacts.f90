@@ -29,9 +29,10 @@ contains
     call fill_random(v)
     do a = 1, contacts
       call fill_random(s(:, a))
-      s(1, a) = 0.01_wp + abs(s(1, a)) + mu*sqrt(sum(s(2:, a)**2))
+      s(2:, a) = s(2:, a)/(one + mu)
+      s(1, a) = 0.01_wp + 0.1_wp*abs(s(1, a)) + mu*sqrt(sum(s(2:, a)**2))
     end do
-    q = s - 3.0_wp*reshape(matmul(b, v), [d, contacts])
+    q = s - 10.0_wp*reshape(matmul(b, v), [d, contacts])
     call blocks_from_dense(matmul(b, transpose(b)), d, flexibility)
   end subroutine make_problem
 

@@ -1,0 +1,213 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Reading and writing plain arrays of an HDF5 file by path; failures say which path.
+module fclib_file
+  use base_kinds, only: wp
+  use base_status, only: status_t, fail, failed, status_deck, status_file
+  use base_strings, only: to_text
+  use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5fopen_f, h5fcreate_f, h5fclose_f, &
+      h5f_acc_rdonly_f, h5f_acc_trunc_f, h5eset_auto_f, h5lexists_f, h5dopen_f, h5dclose_f, &
+      h5dget_space_f, h5sget_simple_extent_npoints_f, h5sclose_f, h5dread_f, h5dwrite_f, &
+      h5dcreate_f, h5screate_simple_f, h5gcreate_f, h5gclose_f, h5t_native_integer, &
+      h5t_native_double
+  implicit none
+  private
+  public :: open_file, create_file, close_file, has_path, read_integers, read_reals, &
+      make_group, write_integers, write_reals
+
+  type, public :: file_t
+    integer(hid_t) :: id = -1
+    character(:), allocatable :: name
+  end type file_t
+
+contains
+
+  !> Opens an HDF5 file for reading; fails with the reason.
+  subroutine open_file(name, file, status)
+    character(*), intent(in) :: name
+    type(file_t), intent(out) :: file
+    type(status_t), intent(inout) :: status
+    integer :: error
+    logical :: there
+    call start_library()
+    file%name = name
+    inquire (file=name, exist=there)
+    if (.not. there) then
+      call fail(status, status_file, 'cannot read "'//name//'": no such file')
+      return
+    end if
+    call h5fopen_f(name, h5f_acc_rdonly_f, file%id, error)
+    if (error < 0) call fail(status, status_file, 'cannot read "'//name// &
+        '": it is no HDF5 file, or a part of one')
+  end subroutine open_file
+
+  !> Creates an HDF5 file; one of that name is replaced.
+  subroutine create_file(name, file, status)
+    character(*), intent(in) :: name
+    type(file_t), intent(out) :: file
+    type(status_t), intent(inout) :: status
+    integer :: error
+    call start_library()
+    file%name = name
+    call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error)
+    if (error < 0) call fail(status, status_file, 'cannot write "'//name//'"')
+  end subroutine create_file
+
+  subroutine start_library()
+    integer :: error
+    call h5open_f(error)
+    call h5eset_auto_f(0, error)
+  end subroutine start_library
+
+  !> Closes the file and the library.
+  subroutine close_file(file)
+    type(file_t), intent(inout) :: file
+    integer :: error
+    if (file%id >= 0) call h5fclose_f(file%id, error)
+    file%id = -1
+    call h5close_f(error)
+  end subroutine close_file
+
+  !> Is there something of this path, each part of it?
+  logical function has_path(file, path)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    integer :: error, cut
+    has_path = .true.
+    cut = 1
+    do while (has_path .and. cut <= len(path))
+      cut = index(path(cut + 1:)//'/', '/') + cut
+      call h5lexists_f(file%id, path(:cut - 1), has_path, error)
+      has_path = has_path .and. error >= 0
+      if (cut > len(path)) exit
+    end do
+  end function has_path
+
+  !> Opens a data set; n = its number of values.
+  subroutine open_set(file, path, set, n, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    integer(hid_t), intent(out) :: set
+    integer(hsize_t), intent(out) :: n
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: space
+    integer :: error
+    n = 0
+    set = -1
+    if (.not. has_path(file, path)) then
+      call fail(status, status_deck, file%name//': '//path//' is missing')
+      return
+    end if
+    call h5dopen_f(file%id, path, set, error)
+    if (error >= 0) call h5dget_space_f(set, space, error)
+    if (error >= 0) call h5sget_simple_extent_npoints_f(space, n, error)
+    if (error < 0) then
+      call fail(status, status_deck, file%name//': '//path//' is no array of numbers')
+      return
+    end if
+    call h5sclose_f(space, error)
+  end subroutine open_set
+
+  !> All integers of a data set; at least `least` of them must be there.
+  subroutine read_integers(file, path, values, status, least)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    integer, allocatable, intent(out) :: values(:)
+    type(status_t), intent(inout) :: status
+    integer, intent(in), optional :: least
+    integer(hid_t) :: set
+    integer(hsize_t) :: n
+    integer :: error
+    allocate (values(0))
+    if (failed(status)) return
+    call open_set(file, path, set, n, status)
+    if (failed(status)) return
+    deallocate (values)
+    allocate (values(n))
+    call h5dread_f(set, h5t_native_integer, values, [n], error)
+    if (error < 0) call fail(status, status_file, file%name//': '//path//' cannot be read')
+    call h5dclose_f(set, error)
+    if (present(least)) call ask_length(file, path, int(n), least, status)
+  end subroutine read_integers
+
+  !> All reals of a data set; at least `least` of them must be there.
+  subroutine read_reals(file, path, values, status, least)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    real(wp), allocatable, intent(out) :: values(:)
+    type(status_t), intent(inout) :: status
+    integer, intent(in), optional :: least
+    integer(hid_t) :: set
+    integer(hsize_t) :: n
+    integer :: error
+    allocate (values(0))
+    if (failed(status)) return
+    call open_set(file, path, set, n, status)
+    if (failed(status)) return
+    deallocate (values)
+    allocate (values(n))
+    call h5dread_f(set, h5t_native_double, values, [n], error)
+    if (error < 0) call fail(status, status_file, file%name//': '//path//' cannot be read')
+    call h5dclose_f(set, error)
+    if (present(least)) call ask_length(file, path, int(n), least, status)
+  end subroutine read_reals
+
+  subroutine ask_length(file, path, n, least, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    integer, intent(in) :: n, least
+    type(status_t), intent(inout) :: status
+    if (n < least) call fail(status, status_deck, file%name//': '//path//' holds '// &
+        to_text(n)//' values, '//to_text(least)//' are needed')
+  end subroutine ask_length
+
+  !> Makes a group; fails when the file cannot be written.
+  subroutine make_group(file, path, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: group
+    integer :: error
+    call h5gcreate_f(file%id, path, group, error)
+    if (error < 0) call fail(status, status_file, 'cannot write "'//file%name//'"')
+    if (error >= 0) call h5gclose_f(group, error)
+  end subroutine make_group
+
+  !> Writes an array of reals as a new data set.
+  subroutine write_reals(file, path, values, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    real(wp), intent(in) :: values(:)
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: set, space
+    integer(hsize_t) :: n(1)
+    integer :: error
+    if (failed(status)) return
+    n = size(values)
+    call h5screate_simple_f(1, n, space, error)
+    call h5dcreate_f(file%id, path, h5t_native_double, space, set, error)
+    if (error >= 0) call h5dwrite_f(set, h5t_native_double, values, n, error)
+    if (error < 0) call fail(status, status_file, 'cannot write "'//file%name//'"')
+    call h5dclose_f(set, error)
+    call h5sclose_f(space, error)
+  end subroutine write_reals
+
+  !> Writes an array of integers as a new data set.
+  subroutine write_integers(file, path, values, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    integer, intent(in) :: values(:)
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: set, space
+    integer(hsize_t) :: n(1)
+    integer :: error
+    if (failed(status)) return
+    n = size(values)
+    call h5screate_simple_f(1, n, space, error)
+    call h5dcreate_f(file%id, path, h5t_native_integer, space, set, error)
+    if (error >= 0) call h5dwrite_f(set, h5t_native_integer, values, n, error)
+    if (error < 0) call fail(status, status_file, 'cannot write "'//file%name//'"')
+    call h5dclose_f(set, error)
+    call h5sclose_f(space, error)
+  end subroutine write_integers
+
+end module fclib_file

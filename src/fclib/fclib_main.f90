@@ -1,0 +1,120 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--max-time S] [-o FILE]
+program fclib_main
+  use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use base_kinds, only: wp, zero
+  use base_status, only: status_t, fail, failed, status_text, status_deck
+  use base_system, only: leave
+  use base_version, only: version
+  use cone_solver, only: solve_contacts
+  use cone_types, only: cone_options_t, certificate_t
+  use fclib_problem, only: problem_t, read_problem, write_solution
+  implicit none
+  character(*), parameter :: usage = &
+      'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--max-time SECONDS]'// &
+      ' [-o FILE]'// &
+      new_line('a')//'  solvers: AUTO GS ANDERSON NEWTON PROX; tolerance 1e-8 unless given;'// &
+      new_line('a')//'  -o writes /solution (u, r, v) and /errors to an HDF5 file'
+  character(8), parameter :: solvers(5) = [character(8) :: 'AUTO', 'GS', 'ANDERSON', &
+      'NEWTON', 'PROX']
+  type(cone_options_t) :: options
+  type(problem_t) :: problem
+  type(certificate_t) :: certificate
+  type(status_t) :: status, answer
+  character(:), allocatable :: input, output
+  real(wp), allocatable :: r(:, :), u(:, :)
+  real(wp) :: start, finish, seconds
+
+  options%tolerance = 1.0e-8_wp
+  options%warm_start = .false.
+  options%max_sweeps = 100000
+  seconds = huge(seconds)
+  call read_arguments()
+  if (.not. failed(status)) call read_problem(input, problem, status)
+  if (.not. failed(status)) then
+    allocate (r(problem%d, problem%contacts), u(problem%d, problem%contacts))
+    r = zero
+    call cpu_time(start)
+    options%deadline = start + seconds
+    call solve_contacts(options, problem%w, problem%q, problem%mu, r, u, certificate, answer)
+    call cpu_time(finish)
+    write (output_unit, '(a)') &
+        '# problem contacts dofs solver sweeps newton cpu error error2018 eta'
+    write (output_unit, '(a,2(1x,i0),1x,a,2(1x,i0),4es11.3)') last_part(input), &
+        problem%contacts, size(r), trim(options%solver), certificate%sweeps, &
+        certificate%newton_steps, finish - start, certificate%error, certificate%error2018, &
+        certificate%eta
+    if (allocated(output)) call write_solution(output, problem, r, u, &
+        [certificate%error, certificate%error2018, certificate%eta], status)
+    if (.not. failed(status) .and. failed(answer)) status = answer
+  end if
+  if (failed(status)) write (error_unit, '(a)') 'bipact-fclib: '//status_text(status)
+  call leave(status%code)
+
+contains
+
+  subroutine read_arguments()
+    character(:), allocatable :: word
+    integer :: i
+    i = 1
+    do while (i <= command_argument_count())
+      word = argument(i)
+      select case (word)
+      case ('--help')
+        write (output_unit, '(a)') usage
+        call leave(0)
+      case ('--version')
+        write (output_unit, '(a)') 'bipact-fclib '//version
+        call leave(0)
+      case ('--tol')
+        call read_number(word, argument(i + 1), options%tolerance)
+        i = i + 1
+      case ('--max-time')
+        call read_number(word, argument(i + 1), seconds)
+        i = i + 1
+      case ('--solver')
+        options%solver = argument(i + 1)
+        if (all(options%solver /= solvers)) &
+            call fail(status, status_deck, 'unknown solver "'//argument(i + 1)//'"', hint=usage)
+        i = i + 1
+      case ('-o')
+        output = argument(i + 1)
+        i = i + 1
+      case default
+        if (word(1:1) == '-' .or. allocated(input)) call fail(status, status_deck, &
+            'unknown argument "'//word//'"', hint=usage)
+        input = word
+      end select
+      i = i + 1
+    end do
+    if (.not. allocated(input)) call fail(status, status_deck, 'no problem was named', &
+        hint=usage)
+  end subroutine read_arguments
+
+  subroutine read_number(name, word, value)
+    character(*), intent(in) :: name, word
+    real(wp), intent(out) :: value
+    integer :: error
+    read (word, *, iostat=error) value
+    if (error /= 0) value = -1.0_wp
+    if (.not. value > zero) call fail(status, status_deck, &
+        name//': expected a positive number, found "'//word//'"', hint=usage)
+  end subroutine read_number
+
+  function argument(i) result(word)
+    integer, intent(in) :: i
+    character(:), allocatable :: word
+    integer :: n
+    call get_command_argument(i, length=n)
+    allocate (character(max(1, n)) :: word)
+    word(:) = ' '
+    if (n > 0) call get_command_argument(i, word)
+  end function argument
+
+  function last_part(path) result(name)
+    character(*), intent(in) :: path
+    character(:), allocatable :: name
+    name = path(index(path, '/', back=.true.) + 1:)
+  end function last_part
+
+end program fclib_main
