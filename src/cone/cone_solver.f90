@@ -69,8 +69,8 @@ contains
     call certify(mean_of_diagonal(flexibility), mu, q, r, u, options%tolerance, &
         certificate)
     if (.not. certificate%met) call fail(status, status_numerical, &
-        'the contact solve did not converge in '//to_text(certificate%sweeps)//' sweeps and '// &
-        to_text(certificate%newton_steps)//' Newton steps: error '// &
+        'the contact solve did not converge in '//to_text(certificate%sweeps)// &
+        ' sweeps and '//to_text(certificate%newton_steps)//' Newton steps: error '// &
         to_text(certificate%error)//', eta '//to_text(certificate%eta), &
         hint='raise MAXIT or TOL')
   end subroutine solve_contacts
