@@ -13,7 +13,7 @@ endif
 
 B := build/$(FLAVOUR)
 BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
-FCLIB := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
+FCLIB_BIN := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
 Q := $(if $(V),,@)
 
@@ -21,18 +21,18 @@ Q := $(if $(V),,@)
 .SUFFIXES:
 .DEFAULT_GOAL := all
 .PHONY: all demo test test-unit test-programs bench-programs check-style doc deps venv debug \
-        sanitize fuzz bench bench-features report stability \
+        sanitize fuzz bench bench-features bench-fclib report stability \
         clean distclean help FORCE
 
 # ---------------------------------------------------------------- targets for people
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
-light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench bench-features report \
+light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench bench-features bench-fclib report \
          stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: $(BIN) $(if $(wildcard src/fclib/*.f90),$(FCLIB)) ## build bin/bipact, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+all: $(BIN) $(if $(wildcard src/fclib/*.f90),$(FCLIB_BIN)) ## build bin/bipact, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
 
 demo: ## install what is missing, build, run the two-bar impact and draw its figures
 	+@$(again) venv
@@ -67,6 +67,12 @@ bench: ## measure speed and accuracy of the two-bar impact and of the reader
 bench-features: ## what each feature costs absent, idle, active (instruction counts need valgrind)
 	+@$(again) all
 	@.venv/bin/python bench/features.py
+
+bench-fclib: ## all contact solvers over FCLIB=dir of problems; SOLVERS=AUTO,GS,...
+	+@$(again) venv
+	+@$(again) all
+	@.venv/bin/python bench/contact_problems.py $(or $(FCLIB),../shared/fclib) \
+	  $(if $(SOLVERS),--solvers $(SOLVERS)) $(if $(OUT),--out $(OUT))
 
 report: ## error against run time on exact scenes, to doc/report; QUICK=1: minutes, to build/report
 	+@$(again) venv
@@ -168,7 +174,7 @@ endef
 $(BIN): $(B)/obj/main.o $(LIB) $(B)/flags
 	$(link)
 
-$(FCLIB): $(call object,$(fclib)) $(LIB) $(B)/flags
+$(FCLIB_BIN): $(call object,$(fclib)) $(LIB) $(B)/flags
 	@mkdir -p $(@D)
 	@echo "  LINK $@"
 	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(HDF5_LIBS) \
