@@ -120,8 +120,50 @@ def main():
         )
     )
 
+    many_contacts()
     if a.figure:
         draw(rows, a.figure)
+
+
+def many_contacts():
+    """Share of the contact solve in a step with 201 closed contacts, and what the start from the
+    last reactions saves."""
+    print("\n201 closed contacts: share of the contact solve in the steps, sweeps a solve")
+    for mu in (0.0, 0.3):
+        for warm in (1, 0):
+            with tempfile.TemporaryDirectory() as folder:
+                deck = os.path.join(folder, "wide.k")
+                make_bars.write(
+                    deck,
+                    nx=20,
+                    ny=200,
+                    height=10.0,
+                    gap=1.0e-9,
+                    courant=0.5,
+                    poisson=0.3,
+                    mu=mu,
+                    slide=0.02,
+                    tend=0.02,
+                    tables=["glstat=1"],
+                )
+                with open(deck) as file:
+                    text = file.read()
+                with open(deck, "w") as file:
+                    file.write(text.replace("*END", "*BIPACT_CONTACT\n,,,,,,,%d\n*END" % warm))
+                done = common.run(deck, folder)
+                if done["code"] != 0:
+                    raise SystemExit(done["errors"])
+                log = common.read_log(folder)
+            whole = sum(log["phase " + name] for name in PHASES)
+            print(
+                "mu %.1f, start %s: %4.1f %%, %.1f sweeps"
+                % (
+                    mu,
+                    "warm" if warm else "zero",
+                    100.0 * log["phase contact"] / whole,
+                    log["sweeps"] / log["contact_solves"],
+                )
+            )
 
 
 def draw(rows, path):

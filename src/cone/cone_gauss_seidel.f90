@@ -6,9 +6,11 @@ module cone_gauss_seidel
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify, mean_diagonal
-  use cone_local, only: solve_local
+  use cone_blocks, only: flexibility_t, blocks_from_dense
+  use cone_local, only: solve_local, project_on_cone, tangent_length
   use cone_pivoting, only: pivot_statuses
   use cone_polish, only: polish_statuses
+  use cone_solver, only: solve_contacts
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, size_cone_work, &
       contact_open, contact_slip
   use linalg_dense, only: largest_eigenvalue_2
@@ -48,6 +50,10 @@ contains
       return
     end if
     m = mean_diagonal(w)
+    if (options%solver == 'PROX' .or. options%solver == 'NEWTON') then
+      call hand_over(options, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+    end if
     call start_sweeps(options, w, q, r, work)
     change = huge(change)
     do sweep = 1, options%max_sweeps
@@ -57,9 +63,8 @@ contains
       if (options%solver /= 'GS' .and. polish_due(sweep, work)) &
           call try_polish(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
-      if (sweep == patience .and. options%solver /= 'GS' .and. size(q, 1) == 2 &
-          .and. size(mu) <= most_pivoted) call try_pivoting(options, w, q, mu, m, r, work, &
-          certificate)
+      if (sweep == patience .and. options%solver /= 'GS') &
+          call rescue(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end do
     call fail(status, status_numerical, 'the contact solve did not converge in '// &
@@ -186,6 +191,23 @@ contains
     work%u = u
   end subroutine try_polish
 
+  !> Where sweeps are slow: complementary pivoting for few contacts in the plane, then the
+  !> solver on blocks.
+  subroutine rescue(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    real(wp), intent(in) :: w(:, :)
+    real(wp), intent(in) :: q(:, :)
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout) :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    if (size(q, 1) == 2 .and. size(mu) <= most_pivoted) &
+        call try_pivoting(options, w, q, mu, m, r, work, certificate)
+    if (.not. certificate%met) &
+        call hand_over(options, w, q, mu, m, r, work, certificate)
+  end subroutine rescue
+
   !> The statuses of a complementary path, solved directly; kept if the certificate is met.
   subroutine try_pivoting(options, w, q, mu, m, r, work, certificate)
     type(cone_options_t), intent(in) :: options
@@ -210,6 +232,44 @@ contains
       work%status = kept
     end if
   end subroutine try_pivoting
+
+  !> The solver on blocks, from r: groups, accelerated sweeps, Newton with a proximal loop. Kept
+  !> if its certificate is met.
+  subroutine hand_over(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    real(wp), intent(in) :: w(:, :)
+    real(wp), intent(in) :: q(:, :)
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout) :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    type(cone_options_t) :: from_here
+    type(certificate_t) :: trial
+    type(flexibility_t) :: blocks
+    type(status_t) :: answer
+    real(wp), dimension(size(q, 1), size(q, 2)) :: other, u
+    real(wp), dimension(size(q, 1)) :: tau, projected
+    integer :: a
+    from_here = options
+    from_here%warm_start = .true.
+    other = r
+    call blocks_from_dense(w, size(q, 1), blocks)
+    call solve_contacts(from_here, blocks, q, mu, other, u, trial, answer)
+    certificate%sweeps = certificate%sweeps + trial%sweeps
+    certificate%newton_steps = certificate%newton_steps + trial%newton_steps
+    if (.not. trial%met) return
+    trial%sweeps = certificate%sweeps
+    trial%newton_steps = certificate%newton_steps
+    certificate = trial
+    r = other
+    work%u = u
+    do a = 1, size(mu)
+      tau = r(:, a) - u(:, a)/m
+      tau(1) = tau(1) - mu(a)*tangent_length(u(:, a))/m
+      call project_on_cone(mu(a), tau, projected, work%status(a))
+    end do
+  end subroutine hand_over
 
   !> r in K, to round-off on the slip side.
   pure logical function in_cone(mu, r)

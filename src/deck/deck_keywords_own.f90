@@ -29,8 +29,8 @@ contains
     call add_field(table, 'COURANT', 'R10 >=0 <=1', 'of DISPERSION; blank = from DT0')
     call add_keyword(table, 'BIPACT_CONTACT', 'contact solver', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'SOLVER', 'W10 =AUTO |AUTO|GS|', &
-        'AUTO: Gauss-Seidel and direct solves; GS: alone')
+    call add_field(table, 'SOLVER', 'W10 =AUTO |AUTO|GS|PROX|NEWTON|', &
+        'AUTO: the cheapest that converges; GS: sweeps alone')
     call add_field(table, 'TOL', 'R10 =1.0E-10 >0 <=0.01', 'of the certificate')
     call add_field(table, 'MAXIT', 'I10 =10000 >0', 'most sweeps of a solve')
     call add_field(table, 'RHO', 'R10 =1.0 >0 <2', 'factor on 1/lmax(W_aa)')
