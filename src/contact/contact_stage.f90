@@ -72,7 +72,20 @@ contains
         call spread_force(contact, c, c%r, force)
       end associate
     end do
+    if (contact%d > 1) call count_wedging(contact)
   end subroutine find_reactions
+
+  !> Contacts that push and for which W_aa alone allows several answers (mu |W_nt| > W_nn).
+  pure subroutine count_wedging(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: k
+    do k = 1, contact%rows
+      if (.not. contact%r(1, k) > zero) cycle
+      if (contact%mu(k)*abs(contact%w(2*k - 1, 2*k)) <= contact%w(2*k - 1, 2*k - 1)) cycle
+      if (contact%wedged == 0) contact%wedged_node = contact%candidate(contact%row_of(k))%node
+      contact%wedged = contact%wedged + 1
+    end do
+  end subroutine count_wedging
 
   !> Corrects the reactions where W is known to fewer digits than the motion du (2, nodes),
   !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the new

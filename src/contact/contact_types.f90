@@ -97,6 +97,7 @@ module contact_types
     integer :: sweeps = 0, sweeps_since_row = 0, solves_since_row = 0
     type(certificate_t) :: worst, worst_since_row
     real(wp) :: worst_penetration = zero          !< / edge length
+    integer :: wedged = 0, wedged_node = 0        !< contacts that may have several answers
   end type contact_t
 
 end module contact_types

@@ -45,9 +45,10 @@ contains
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
         'accepted penetration / segment length')
     call add_field(table, 'ROTWARN', 'R10 =5.0 >0', 'degrees of rotation that are warned of')
-    call add_field(table, 'DFIRST', 'I10 fixed')
-    call add_field(table, 'DLAST', 'I10 fixed')
-    call add_field(table, 'DEVERY', 'I10 =1 fixed')
+    call add_field(table, 'DFIRST', 'I10 =0 >=0', &
+        'first step whose contact problem is written; 0 = none')
+    call add_field(table, 'DLAST', 'I10 =0 >=0', 'last such step; 0 = DFIRST')
+    call add_field(table, 'DEVERY', 'I10 =1 >0', 'every so many steps')
     call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'ENGINE', 'W10 =AUTO |AUTO|LDLT|SKYLINE|', 'factor')

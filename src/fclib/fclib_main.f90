@@ -8,20 +8,22 @@ program fclib_main
   use base_version, only: version
   use cone_solver, only: solve_contacts
   use cone_types, only: cone_options_t, certificate_t
-  use fclib_problem, only: problem_t, read_problem, write_solution
+  use fclib_problem, only: problem_t, read_problem, write_problem, write_solution
   implicit none
   character(*), parameter :: usage = &
       'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--max-time SECONDS]'// &
       ' [-o FILE]'// &
+      new_line('a')//'       bipact-fclib PROBLEM --convert FILE.hdf5'// &
       new_line('a')//'  solvers: AUTO GS ANDERSON NEWTON PROX; tolerance 1e-8 unless given;'// &
-      new_line('a')//'  -o writes /solution (u, r, v) and /errors to an HDF5 file'
+      new_line('a')//'  -o writes /solution (u, r, v) and /errors (HDF5)'// &
+      new_line('a')//'  PROBLEM may be a contact_N.txt of bipact; --convert writes it as FCLIB'
   character(8), parameter :: solvers(5) = [character(8) :: 'AUTO', 'GS', 'ANDERSON', &
       'NEWTON', 'PROX']
   type(cone_options_t) :: options
   type(problem_t) :: problem
   type(certificate_t) :: certificate
   type(status_t) :: status, answer
-  character(:), allocatable :: input, output
+  character(:), allocatable :: input, output, converted
   real(wp), allocatable :: r(:, :), u(:, :)
   real(wp) :: start, finish, seconds
 
@@ -31,7 +33,9 @@ program fclib_main
   seconds = huge(seconds)
   call read_arguments()
   if (.not. failed(status)) call read_problem(input, problem, status)
-  if (.not. failed(status)) then
+  if (.not. failed(status) .and. allocated(converted)) then
+    call write_problem(converted, problem, status)
+  else if (.not. failed(status)) then
     allocate (r(problem%d, problem%contacts), u(problem%d, problem%contacts))
     r = zero
     call cpu_time(start)
@@ -76,6 +80,9 @@ contains
         options%solver = argument(i + 1)
         if (all(options%solver /= solvers)) &
             call fail(status, status_deck, 'unknown solver "'//argument(i + 1)//'"', hint=usage)
+        i = i + 1
+      case ('--convert')
+        converted = argument(i + 1)
         i = i + 1
       case ('-o')
         output = argument(i + 1)

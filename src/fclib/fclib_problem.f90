@@ -5,14 +5,15 @@ module fclib_problem
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: to_text
-  use cone_blocks, only: flexibility_t, blocks_from_rows
+  use cone_blocks, only: flexibility_t, blocks_from_rows, blocks_from_dense
   use fclib_file, only: file_t, open_file, create_file, close_file, has_path, read_integers, &
       read_reals, make_group, write_integers, write_reals
   use fclib_matrix, only: matrix_t, read_matrix, transposed, complete_half, from_triplets
+  use fclib_text, only: is_text_problem, read_text_problem
   use linalg_dense, only: solve_general
   implicit none
   private
-  public :: read_problem, write_solution
+  public :: read_problem, write_problem, write_solution
 
   type, public :: problem_t
     integer :: d = 0, contacts = 0
@@ -35,6 +36,10 @@ contains
     type(problem_t), intent(out) :: problem
     type(status_t), intent(inout) :: status
     type(file_t) :: file
+    if (is_text_problem(name)) then
+      call read_text(name, problem, status)
+      return
+    end if
     call open_file(name, file, status)
     if (.not. failed(status)) then
       if (has_path(file, '/fclib_local')) then
@@ -49,6 +54,62 @@ contains
     if (.not. failed(status)) call read_form(file, problem, status)
     call close_file(file)
   end subroutine read_problem
+
+  subroutine read_text(name, problem, status)
+    character(*), intent(in) :: name
+    type(problem_t), intent(inout) :: problem
+    type(status_t), intent(inout) :: status
+    real(wp), allocatable :: w(:, :)
+    problem%form = '/fclib_local'
+    call read_text_problem(name, w, problem%q, problem%mu, status)
+    if (failed(status)) return
+    problem%d = size(problem%q, 1)
+    problem%contacts = size(problem%mu)
+    call blocks_from_dense(w, problem%d, problem%w)
+  end subroutine read_text
+
+  !> The problem in local form, W by rows.
+  subroutine write_problem(name, problem, status)
+    character(*), intent(in) :: name
+    type(problem_t), intent(in) :: problem
+    type(status_t), intent(inout) :: status
+    type(file_t) :: file
+    integer, allocatable :: p(:), i(:)
+    real(wp), allocatable :: x(:)
+    integer :: a, j, k, m, n, d
+    d = problem%d
+    n = size(problem%w%block)
+    allocate (p(d*problem%contacts + 1), i(n), x(n))
+    n = 0
+    p(1) = 0
+    do a = 1, problem%contacts
+      do j = 1, d
+        do k = problem%w%first(a), problem%w%first(a + 1) - 1
+          i(n + 1:n + d) = [(d*(problem%w%column(k) - 1) + m, m=0, d - 1)]
+          x(n + 1:n + d) = problem%w%block(j, :, k)
+          n = n + d
+        end do
+        p(d*(a - 1) + j + 1) = n
+      end do
+    end do
+    call create_file(name, file, status)
+    if (failed(status)) return
+    call make_group(file, '/fclib_local', status)
+    call make_group(file, '/fclib_local/W', status)
+    call make_group(file, '/fclib_local/vectors', status)
+    call write_integers(file, '/fclib_local/spacedim', [d], status)
+    call write_integers(file, '/fclib_local/W/m', [size(p) - 1], status)
+    call write_integers(file, '/fclib_local/W/n', [size(p) - 1], status)
+    call write_integers(file, '/fclib_local/W/nzmax', [n], status)
+    call write_integers(file, '/fclib_local/W/nz', [-2], status)
+    call write_integers(file, '/fclib_local/W/p', p, status)
+    call write_integers(file, '/fclib_local/W/i', i(:n), status)
+    call write_reals(file, '/fclib_local/W/x', x(:n), status)
+    call write_reals(file, '/fclib_local/vectors/mu', problem%mu, status)
+    call write_reals(file, '/fclib_local/vectors/q', reshape(problem%q, [size(problem%q)]), &
+        status)
+    call close_file(file)
+  end subroutine write_problem
 
   subroutine read_form(file, problem, status)
     type(file_t), intent(in) :: file

@@ -129,6 +129,7 @@ module model_data
     logical :: redistribute = .false.
     real(wp) :: courant = -1.0_wp       !< of DISPERSION; < 0 = from dt
     integer :: ledger_every = 0
+    integer :: dump_first = 0, dump_last = 0, dump_every = 1  !< steps; 0 = no dump
     real(wp) :: growth = 1.0e-9_wp
     logical :: stop_on_growth = .false.
     real(wp) :: rotation_warning = 5.0_wp      !< [degrees]

@@ -34,6 +34,7 @@ module run_data
     logical :: reactions = .false.   !< of held dofs, at every step
     logical :: ledger = .false.
     logical :: refinement = .false.
+    logical :: dump = .false.        !< of contact problems
     integer :: full_steps = 0
     real(wp) :: last_step = zero     !< length of a cut last step; 0 = none [T]
   end type plan_t

@@ -7,7 +7,7 @@ module run_loop
   use base_kinds, only: wp, zero, one
   use base_signal, only: stop_asked
   use base_status, only: status_t, fail, failed, add_place, status_numerical, status_stopped
-  use base_strings, only: to_text
+  use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_search, phase_contact, &
       phase_update, phase_energy, phase_output, phase_other
   use contact_condense, only: build_w
@@ -15,6 +15,7 @@ module run_loop
   use contact_stage, only: solve_contact, correct_contact, settle_contact
   use contact_work, only: add_contact_step, contact_work_t
   use linalg_solver, only: solve_whole
+  use output_contact, only: write_contact_problem
   use output_tables, only: any_due, energies_due
   use run_data, only: run_t
   use run_motion, only: activate_motions, impose_motions, restore_motions, find_reactions
@@ -211,12 +212,29 @@ contains
     call run%timers%enter(phase_contact)
     call build_w(run%contact)
     call solve_contact(run%contact, run%x_last, run%force, acting, status)
+    if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
     call clear_block_forces(run)
     run%x_last = run%b_last + run%force
     call run%solver%solve_last(run%x_last)
   end subroutine add_contact
+
+  !> The contact problem of the step as a file, where the deck asks for it.
+  subroutine dump_contact(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    character(24) :: name
+    integer :: step
+    step = run%state%cycle + 1
+    associate (c => run%model%controls, p => run%contact)
+      if (step < c%dump_first .or. step > c%dump_last) return
+      if (mod(step - c%dump_first, c%dump_every) /= 0) return
+      write (name, '(a,i9.9,a)') 'contact_', step, '.txt'
+      call write_contact_problem(join_path(run%folder, trim(name)), 'step '//to_text(step), &
+          p%w, p%q, p%mu, p%r, status)
+    end associate
+  end subroutine dump_contact
 
   subroutine clear_block_forces(run)
     type(run_t), intent(inout) :: run

@@ -66,6 +66,9 @@ contains
       call add_feature(plan, 'friction', .false., &
           'mu = 0 in all pairs: scalar contact rows only')
     end if
+    plan%dump = plan%contact .and. model%controls%dump_first > 0
+    call add_feature(plan, 'dump', plan%dump, 'contact problems of steps '// &
+        to_text(model%controls%dump_first)//' to '//to_text(model%controls%dump_last))
   end subroutine plan_contact
 
   subroutine plan_tables(model, plan)

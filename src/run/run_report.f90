@@ -92,6 +92,10 @@ contains
         call add_warning(run%deck%problems, 'certificate: in some step the contact forces '// &
         'meet their law only to error '//to_text(run%contact%worst%error)//', eta '// &
         to_text(run%contact%worst%eta)//' for the motion as computed')
+    if (run%contact%wedged > 0) call add_warning(run%deck%problems, 'wedging: '// &
+        to_text(run%contact%wedged)//' times friction was so large at a contact '// &
+        '(mu |W_nt| > W_nn) that several answers may exist; first at node '// &
+        to_text(run%model%node_id(run%contact%wedged_node)))
     if (run%ledger%contact%allowed_growth > run%model%controls%growth*run%ledger%largest) &
         call add_note(run%deck%problems, 'energy: closing penetrations that sliding along '// &
         'deformed edges had made gave the bodies '// &

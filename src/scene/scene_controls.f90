@@ -158,6 +158,9 @@ contains
       if (second > 0) then
         controls%penetration_tolerance = deck%real(second, 'PENTOL')
         controls%rotation_warning = deck%real(second, 'ROTWARN')
+        controls%dump_first = deck%integer(second, 'DFIRST')
+        controls%dump_last = max(controls%dump_first, deck%integer(second, 'DLAST'))
+        controls%dump_every = deck%integer(second, 'DEVERY')
       end if
     end if
     r = deck%next('BIPACT_SOLVER', 1, 0)

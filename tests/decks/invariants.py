@@ -129,6 +129,19 @@ def solvers():
             at_most(off, 1.0e-7, "%s, %s: impulse" % (name, word))
 
 
+def wedging():
+    """Friction of 10 under a block that slides: several answers may exist, and the log says so;
+    with 0.3 none does."""
+    for mu, warned in ((10.0, True), (0.3, False)):
+        path, folder = os.path.join(scenes.TMP, "wedge.k"), os.path.join(scenes.TMP, "wedge")
+        make_scenes.write(path, "sliding", mu=mu, base=1, tend=0.2, courant=10.0)
+        code, errors, _ = bipact(path, folder, "--quiet")
+        check(code == 0, errors)
+        with open(os.path.join(folder, "bipact.log")) as log:
+            found = [line for line in log if line.startswith("WARNING wedging: ")]
+        check(len(found) == warned, "mu %g: %s" % (mu, found))
+
+
 if __name__ == "__main__":
     globals()[sys.argv[1]]()
     finish()

@@ -12,6 +12,7 @@ import numpy as np
 import scenes
 from scenes import TMP, at_most, check, finish
 import fclib
+import make_bars
 
 PROGRAM = os.environ["BIPACT"].replace("bin/bipact", "bin/bipact-fclib")
 
@@ -222,6 +223,41 @@ def damaged():
     ):
         found, _, errors = solve(*words)
         check(found == code and message in errors, "%s: %s %s" % (words, found, errors))
+
+
+def dumps():
+    """Problems of steps of the two bars (no friction) and of a scene with friction, written by
+    the run, converted, solved again: the reactions of the run, to its tolerance of 1e-10 times
+    the condition of W, below 1e3 here. A step without contact leaves no file."""
+    for name, data in (("smooth", dict(ny=2)), ("friction", dict(ny=3, mu=0.3, slide=0.3))):
+        deck, folder = os.path.join(TMP, name + ".k"), os.path.join(TMP, name)
+        make_bars.write(deck, nx=20, courant=0.5, touch=0.5, **data)
+        with open(deck) as file:
+            text = file.read()
+        with open(deck, "w") as file:
+            file.write(text.replace("*END", "*BIPACT_CONTACT\nAUTO,\n,,,,10,170,40\n*END"))
+        code, errors, _ = scenes.bipact(deck, folder, "--quiet")
+        check(code == 0, errors)
+        found = sorted(glob.glob(os.path.join(folder, "contact_*.txt")))
+        check(
+            [int(x[-13:-4]) for x in found] == [50, 90],
+            "%s: step 10 is before the touch at 41, 130 after the release at 121: %s"
+            % (name, found),
+        )
+        for path in found:
+            converted, answer = path[:-4] + ".hdf5", path[:-4] + "_solution.hdf5"
+            done = subprocess.run([PROGRAM, path, "--convert", converted])
+            check(done.returncode == 0, "convert")
+            with open(path) as file:
+                contacts = int(file.readlines()[1].split()[1])
+            r = np.loadtxt(path, skiprows=2, max_rows=contacts, ndmin=2)[:, 3:5]
+            given = fclib.Problem(converted)
+            at_most(fclib.errors(given, r)[0], 1.1e-10, name + ": error of the run's answer")
+            for problem in (converted, path):
+                code, _, errors = solve(problem, "--tol", "1e-10", "-o", answer)
+                check(code == 0, errors)
+                off = np.abs(fclib.solution(answer, given) - r).max() / np.abs(r).max()
+                at_most(off, 1e-7, name + ": reactions of the run")
 
 
 def shared():
