@@ -15,12 +15,16 @@ B := build/$(FLAVOUR)
 BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 FCLIB_BIN := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
+# HDF5, for bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
+HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
+                /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
+HDF5_LIBS ?= $(if $(findstring serial,$(HDF5_MODULES)),-lhdf5_serial_fortran -lhdf5_serial,-lhdf5_fortran -lhdf5)
 Q := $(if $(V),,@)
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .DEFAULT_GOAL := all
-.PHONY: all demo test test-unit test-programs bench-programs check-style doc deps venv debug \
+.PHONY: all no-hdf5 demo test test-unit test-programs bench-programs check-style doc deps venv debug \
         sanitize fuzz bench bench-features bench-fclib report stability \
         clean distclean help FORCE
 
@@ -32,7 +36,10 @@ light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench
          stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: $(BIN) $(if $(wildcard src/fclib/*.f90),$(FCLIB_BIN)) ## build bin/bipact, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+all: $(BIN) $(if $(wildcard src/fclib/*.f90),$(if $(HDF5_MODULES),$(FCLIB_BIN),no-hdf5)) ## build bin/bipact, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+
+no-hdf5:
+	@echo 'bipact-fclib is left out: no HDF5 modules for Fortran; "make deps" installs them'
 
 demo: ## install what is missing, build, run the two-bar impact and draw its figures
 	+@$(again) venv
@@ -130,11 +137,6 @@ endif
 ifndef LDFLAGS
 LDFLAGS := $(if $(call archive,gfortran),-static-libgfortran)
 endif
-
-# HDF5, for bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
-HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
-                /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
-HDF5_LIBS ?= $(if $(findstring serial,$(HDF5_MODULES)),-lhdf5_serial_fortran -lhdf5_serial,-lhdf5_fortran -lhdf5)
 
 version := $(B)/gen/base_version.f90
 sources := $(wildcard src/*/*.f90 src/*/*.F90) $(version)
