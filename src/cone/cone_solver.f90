@@ -68,12 +68,29 @@ contains
     call motions(flexibility, q, r, u)
     call certify(mean_of_diagonal(flexibility), mu, q, r, u, options%tolerance, &
         certificate)
+    call count_wedging(flexibility, mu, r, certificate)
     if (.not. certificate%met) call fail(status, status_numerical, &
         'the contact solve did not converge in '//to_text(certificate%sweeps)// &
         ' sweeps and '//to_text(certificate%newton_steps)//' Newton steps: error '// &
         to_text(certificate%error)//', eta '//to_text(certificate%eta), &
         hint='raise MAXIT or TOL')
   end subroutine solve_contacts
+
+  !> Contacts for which W_aa alone allows several answers: one was taken, which is told.
+  pure subroutine count_wedging(flexibility, mu, r, certificate)
+    type(flexibility_t), intent(in) :: flexibility
+    real(wp), intent(in) :: mu(:), r(:, :)
+    type(certificate_t), intent(inout) :: certificate
+    integer :: a
+    do a = 1, size(mu)
+      if (flexibility%d < 2 .or. .not. r(1, a) > zero) cycle
+      associate (w => flexibility%block(:, :, flexibility%diagonal(a)))
+        if (mu(a)*sqrt(sum(w(1, 2:)**2)) <= w(1, 1)) cycle
+      end associate
+      if (certificate%wedged == 0) certificate%first_wedged = a
+      certificate%wedged = certificate%wedged + 1
+    end do
+  end subroutine count_wedging
 
   !> One component; its contacts are list in r (d, all).
   subroutine solve_component(options, part, q, mu, list, r, certificate)

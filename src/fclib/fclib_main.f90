@@ -4,6 +4,7 @@ program fclib_main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_text, status_deck
+  use base_strings, only: to_text
   use base_system, only: leave
   use base_version, only: version
   use cone_solver, only: solve_contacts
@@ -48,6 +49,9 @@ program fclib_main
         problem%contacts, size(r), trim(options%solver), certificate%sweeps, &
         certificate%newton_steps, finish - start, certificate%error, certificate%error2018, &
         certificate%eta
+    if (certificate%wedged > 0) write (error_unit, '(a)') 'bipact-fclib: warning: '// &
+        to_text(certificate%wedged)//' contacts wedge (mu |W_nt| > W_nn): several answers'// &
+        ' may exist; the first is contact '//to_text(certificate%first_wedged)
     if (allocated(output)) call write_solution(output, problem, r, u, &
         [certificate%error, certificate%error2018, certificate%eta], status)
     if (.not. failed(status) .and. failed(answer)) status = answer

@@ -138,6 +138,19 @@ def problems():
                     at_most(np.abs(off).max(), 1e-10, name + ": M v = H r + f")
 
 
+def wedging():
+    """One contact with mu |W_nt| > W_nn has several answers: it is solved, and named."""
+    for mu, warned in ((2.0, True), (0.5, False)):
+        name = os.path.join(TMP, "wedge.hdf5")
+        mass = np.linalg.inv(np.array([[1.0, 0.9], [0.9, 1.0]]))
+        q = np.array([-1.0, -0.5])
+        write(name, "local", "rows", 2, mass, np.eye(2), np.zeros(2), q, np.array([mu]))
+        code, _, errors = solve(name)
+        check(code == 0, errors)
+        found = "1 contacts wedge" in errors and "the first is contact 1" in errors
+        check(found == warned, "mu %g: %s" % (mu, errors))
+
+
 def damaged():
     """Missing parts, wrong sizes, NaN, a cut file, no HDF5: a message, exit 2 or 3, no file."""
     rng = np.random.default_rng(6)
