@@ -20,6 +20,9 @@ program test_cone_solver
   call test_random('AUTO    ', 10.0_wp)
   call test_random('PROX    ', 0.7_wp)
   call test_random('ANDERSON', 0.1_wp)
+  call test_stack(2, 30)
+  call test_stack(3, 100)
+  call test_stack(2, 1000)
   call test_groups()
   call test_units()
   call test_failure()
@@ -127,6 +130,60 @@ contains
       if (certificate%met .and. u(1, a) < -slack) wrong = wrong + 1
     end do
   end subroutine solve_one
+
+  !> n blocks of random mass on each other, under gravity: contact a carries all blocks above.
+  !> Only the lowest contact closes on its own; the news must pass the whole stack. The condition
+  !> of W grows with n^2, and so does what is left of the certificate in the reactions.
+  subroutine test_stack(d, n)
+    integer, intent(in) :: d, n
+    type(cone_options_t) :: options
+    type(flexibility_t) :: w
+    type(certificate_t) :: certificate
+    type(status_t) :: status
+    real(wp) :: light(0:n), exact(n)
+    real(wp) :: mass(n)
+    real(wp), allocatable :: q(:, :), mu(:), r(:, :), u(:, :), values(:)
+    integer, allocatable :: pointer(:), columns(:)
+    integer :: a, j, k
+    allocate (q(d, n), mu(n), r(d, n), u(d, n), pointer(d*n + 1), columns(3*d*n), &
+        values(3*d*n))
+    call random_number(mass)
+    mass = 0.5_wp + mass
+    light = [zero, one/mass]    ! the ground does not move
+    k = 0
+    do a = 1, n
+      do j = 1, d
+        pointer(d*(a - 1) + j) = k + 1
+        if (a > 1) call add_entry(d*(a - 2) + j, -light(a - 1), k, columns, values)
+        call add_entry(d*(a - 1) + j, light(a) + light(a - 1), k, columns, values)
+        if (a < n) call add_entry(d*a + j, -light(a), k, columns, values)
+      end do
+    end do
+    pointer(d*n + 1) = k + 1
+    call blocks_from_rows(d, pointer, columns(:k), values(:k), w)
+    q = zero
+    q(1, 1) = -9.81_wp
+    mu = 0.4_wp
+    r = zero
+    options%max_sweeps = 100000
+    call solve_contacts(options, w, q, mu, r, u, certificate, status)
+    call check_true(certificate%met, 'a stack is solved')
+    do a = 1, n
+      exact(a) = 9.81_wp*sum(mass(a:))
+    end do
+    call check_close(norm2(r(1, :) - exact), zero, n**2*options%tolerance*norm2(exact), &
+        'each contact carries what is above it')
+  end subroutine test_stack
+
+  subroutine add_entry(column, value, k, columns, values)
+    integer, intent(in) :: column
+    real(wp), intent(in) :: value
+    integer, intent(inout) :: k, columns(:)
+    real(wp), intent(inout) :: values(:)
+    k = k + 1
+    columns(k) = column
+    values(k) = value
+  end subroutine add_entry
 
   !> Two problems in one, their contacts mixed: two groups, and the reactions of each alone.
   subroutine test_groups()
