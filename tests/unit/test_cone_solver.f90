@@ -132,8 +132,8 @@ contains
   end subroutine solve_one
 
   !> n blocks of random mass on each other, under gravity: contact a carries all blocks above.
-  !> Only the lowest contact closes on its own; the news must pass the whole stack. The condition
-  !> of W grows with n^2, and so does what is left of the certificate in the reactions.
+  !> Only the lowest contact closes on its own; the news must pass the whole stack. The
+  !> condition of W grows with n^2, and so does what the certificate leaves of the reactions.
   subroutine test_stack(d, n)
     integer, intent(in) :: d, n
     type(cone_options_t) :: options
