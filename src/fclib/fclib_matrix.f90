@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Sparse matrices of FCLIB files: rows, columns or triplets, base 0, as rows of base 1.
 module fclib_matrix
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_deck
   use fclib_file, only: file_t, read_integers, read_reals
@@ -42,7 +43,7 @@ contains
     call read_integers(file, path//'/i', i, status, entries)
     call read_reals(file, path//'/x', x, status, entries)
     if (failed(status)) return
-    if (.not. all(abs(x(:entries)) <= huge(x))) call fail(status, status_deck, &
+    if (.not. all(ieee_is_finite(x(:entries)))) call fail(status, status_deck, &
         file%name//': '//path//'/x holds numbers that are none (NaN or infinite)')
     if (nz(1) >= 0) then
       major = p(:entries)

@@ -2,6 +2,7 @@
 !> Contact problems of FCLIB files: the local form as it is, the global form M v = H r + f, u =
 !> H' v + w condensed to W = H' M^-1 H, q = H' M^-1 f + w.
 module fclib_problem
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: to_text
@@ -125,8 +126,11 @@ contains
     problem%contacts = size(problem%mu)
     if (d(1) /= 2 .and. d(1) /= 3) call fail(status, status_deck, file%name// &
         ': spacedim is '//to_text(d(1))//'; 2 and 3 are solved here')
-    if (.not. all(problem%mu >= zero .and. problem%mu <= huge(problem%mu))) &
-        call fail(status, status_deck, file%name//': mu holds a negative number or none')
+    if (.not. all(ieee_is_finite(problem%mu))) then
+      call fail(status, status_deck, file%name//': mu holds numbers that are none')
+    else if (any(problem%mu < zero)) then
+      call fail(status, status_deck, file%name//': mu holds a negative number')
+    end if
     if (has_path(file, problem%form//'/G')) call fail(status, status_deck, file%name// &
         ': equality constraints (G, b) are not solved here')
     if (failed(status)) return
@@ -141,7 +145,7 @@ contains
         call fail(status, status_deck, file%name//': W is '//to_text(w%rows)//' x '// &
         to_text(w%columns)//', q holds '//to_text(size(q))//' for '// &
         to_text(problem%contacts)//' contacts')
-    if (.not. all(abs(q) <= huge(q))) call fail(status, status_deck, file%name// &
+    if (.not. all(ieee_is_finite(q))) call fail(status, status_deck, file%name// &
         ': q holds numbers that are none (NaN or infinite)')
     if (failed(status)) return
     problem%q = reshape(q, [d(1), problem%contacts])
