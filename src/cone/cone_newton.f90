@@ -45,7 +45,7 @@ contains
     type(newton_work_t), intent(inout) :: work
     real(wp), intent(out) :: norm
     integer, intent(out) :: steps
-    real(wp) :: r_0(size(r, 1), size(r, 2)), length, trial_norm, best
+    real(wp) :: r_0(size(r, 1), size(r, 2)), length, trial_norm
     logical :: ok
     integer :: k
     r_0 = r
@@ -56,7 +56,6 @@ contains
       call find_step(w, mu, rho, alpha, work, ok)
       if (.not. ok) return
       length = one
-      best = huge(best)
       do k = 1, 12
         work%trial = r + length*reshape(work%step, shape(r))
         call natural_map(w, q, mu, rho, alpha, r_0, work%trial, work%u, work%map, work%part)
@@ -121,12 +120,29 @@ contains
     real(wp), intent(in) :: w(:, :), mu(:), rho(:), alpha
     type(newton_work_t), intent(inout) :: work
     logical, intent(out) :: ok
-    real(wp) :: weight(size(work%u, 1), size(work%u, 1)), open_motion(size(work%u, 1))
-    integer :: a, b, d, k, j, n, row, column, first, others
+    integer :: a, d, k, n, others
+    d = size(work%u, 1)
+    call part_contacts(size(mu), work, n, others)
+    call fill_system(w, mu, rho, alpha, n, others, work)
+    ok = .true.
+    if (n > 0) call solve_general(d*n, work%matrix, work%right, work%pivot, ok)
+    if (.not. ok) return
+    do k = 1, n
+      a = work%active(k)
+      work%step(d*(a - 1) + 1:d*a, 1) = work%right(d*(k - 1) + 1:d*k, 1)
+    end do
+  end subroutine find_step
+
+  !> Contacts 1 to contacts into those of the system (active) and the open ones that move.
+  subroutine part_contacts(contacts, work, n, others)
+    integer, intent(in) :: contacts
+    type(newton_work_t), intent(inout) :: work
+    integer, intent(out) :: n, others
+    integer :: a, d
     d = size(work%u, 1)
     n = 0
     others = 0
-    do a = 1, size(mu)
+    do a = 1, contacts
       work%step(d*(a - 1) + 1:d*a, 1) = -work%map(:, a)
       work%is_open(a) = .not. any(abs(work%part(:, :, a)) > zero)
       if (work%is_open(a) .and. any(abs(work%map(:, a)) > zero)) then
@@ -137,6 +153,16 @@ contains
       n = n + 1
       work%active(n) = a
     end do
+  end subroutine part_contacts
+
+  !> The system of the active contacts, the steps of the open ones on its right side.
+  subroutine fill_system(w, mu, rho, alpha, n, others, work)
+    real(wp), intent(in) :: w(:, :), mu(:), rho(:), alpha
+    integer, intent(in) :: n, others
+    type(newton_work_t), intent(inout) :: work
+    real(wp) :: weight(size(work%u, 1), size(work%u, 1)), open_motion(size(work%u, 1))
+    integer :: a, b, d, k, j, row, column, first
+    d = size(work%u, 1)
     do k = 1, n
       a = work%active(k)
       row = d*(k - 1)
@@ -162,14 +188,7 @@ contains
         work%matrix(row + j, row + j) = work%matrix(row + j, row + j) + one
       end do
     end do
-    ok = .true.
-    if (n > 0) call solve_general(d*n, work%matrix, work%right, work%pivot, ok)
-    if (.not. ok) return
-    do k = 1, n
-      a = work%active(k)
-      work%step(d*(a - 1) + 1:d*a, 1) = work%right(d*(k - 1) + 1:d*k, 1)
-    end do
-  end subroutine find_step
+  end subroutine fill_system
 
   !> rho dP (I + mu e_n t'), t the direction of u_t.
   pure function weight_of(scaled_part, mu, u) result(weight)

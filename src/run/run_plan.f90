@@ -67,8 +67,12 @@ contains
           'mu = 0 in all pairs: scalar contact rows only')
     end if
     plan%dump = plan%contact .and. model%controls%dump_first > 0
-    call add_feature(plan, 'dump', plan%dump, 'contact problems of steps '// &
-        to_text(model%controls%dump_first)//' to '//to_text(model%controls%dump_last))
+    if (plan%dump) then
+      call add_feature(plan, 'dump', .true., 'contact problems of steps '// &
+          to_text(model%controls%dump_first)//' to '//to_text(model%controls%dump_last))
+    else
+      call add_feature(plan, 'dump', .false., 'DFIRST 0 on *BIPACT_CONTACT')
+    end if
   end subroutine plan_contact
 
   subroutine plan_tables(model, plan)

@@ -102,10 +102,9 @@ contains
         end do
       end do
     end do
-    call check_equal(wrong, 0, trim(solver)//': cones and gaps')
-    ! Sweeps alone may end without an answer, and then say so; they do it here for 3 of 72.
+    call check_equal(wrong, 0, trim(solver)//': cones, gaps, statuses')
+    ! Sweeps alone may end without an answer, and then say so.
     if (solver /= 'ANDERSON') call check_equal(unsolved, 0, trim(solver)//': all certified')
-    call check_true(unsolved <= 6, trim(solver)//': most are certified')
   end subroutine test_random
 
   subroutine solve_one(options, d, n, condition, redundancy, mu_1, unsolved, wrong)
@@ -122,7 +121,8 @@ contains
     call make_problem(d, n, condition, redundancy, mu_1, w, q)
     r = zero
     call solve_contacts(options, w, q, mu, r, u, certificate, status)
-    if (failed(status) .or. .not. certificate%met) unsolved = unsolved + 1
+    if (failed(status)) unsolved = unsolved + 1
+    if (failed(status) .eqv. certificate%met) wrong = wrong + 1   ! a miss has its status
     slack = 1.0e-7_wp*max(norm2(q), norm2(u))*(one + mu_1)
     do a = 1, n
       if (norm2(r(2:, a)) > (one + 16.0_wp*eps)*mu_1*r(1, a) + 1.0e-8_wp*norm2(r)) &
