@@ -15,6 +15,7 @@ B := build/$(FLAVOUR)
 BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 FCLIB_BIN := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
+SUPPORT := $(B)/libsupport.a
 # HDF5, for bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
 HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
                 /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
@@ -186,11 +187,18 @@ test-programs: $(programs)
 
 bench-programs: $(bench-programs)
 
-$(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/flags
+$(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
 
-$(programs): $(B)/tests/%: $(B)/obj/%.o $(call object,$(support)) $(LIB) $(B)/flags
+# test_allocations puts itself between the program and the library of C.
+$(B)/tests/test_allocations: LDFLAGS += -Wl,--wrap=malloc -Wl,--wrap=realloc
+$(programs): $(B)/tests/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
+
+# An archive: a program takes what it uses.
+$(SUPPORT): $(call object,$(support)) $(B)/deps.mk
+	$(Q)rm -f $@
+	$(Q)ar rcs $@ $(filter %.o,$^)
 
 # Made anew, also when only the list of sources (in deps.mk) changed: no stale member stays in it.
 $(LIB): $(call object,$(filter-out src/run/main.f90 $(fclib),$(sources))) $(B)/deps.mk

@@ -34,7 +34,9 @@ def run(path, problem, solver, tolerance, seconds):
         answer = os.path.join(folder, "answer.hdf5")
         times, words = [], []
         for k in range(3):
-            command = [PROGRAM, path, "--tol", repr(tolerance), "--solver", solver]
+            command = [PROGRAM, path, "--tol", repr(tolerance)]
+            command += ["--solver", solver.split("-")[0]]
+            command += ["--local", solver.split("-")[1]] if "-" in solver else []
             command += ["--max-time", repr(seconds), "-o", answer]
             done = subprocess.run(
                 command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True

@@ -2,17 +2,20 @@
 !> The flexibility W of a contact problem, stored by blocks of d x d, row by row.
 module cone_blocks
   use base_kinds, only: wp, zero
+  use cone_operator, only: operator_t
   implicit none
   private
   public :: blocks_from_dense, blocks_from_rows, motions, mean_of_diagonal, dense_of_blocks, &
       find_components, take_component
 
-  type, public :: flexibility_t
+  type, extends(operator_t), public :: flexibility_t
     integer :: d = 0, contacts = 0
     integer, allocatable :: first(:)         !< (nc + 1) first block of a contact's row
     integer, allocatable :: column(:)        !< contact of a block
     integer, allocatable :: diagonal(:)      !< (nc) place of W_aa
     real(wp), allocatable :: block(:, :, :)  !< (d, d, blocks) [L/F]
+  contains
+    procedure :: apply
   end type flexibility_t
 
 contains
@@ -94,13 +97,29 @@ contains
     allocate (flexibility%first(nc + 1), flexibility%diagonal(nc))
   end subroutine start_blocks
 
+  !> u = W r (d, nc).
+  subroutine apply(this, r, u)
+    class(flexibility_t), intent(in) :: this
+    real(wp), intent(in) :: r(:, :)
+    real(wp), intent(out) :: u(:, :)
+    u = zero
+    call add_motions(this, r, u)
+  end subroutine apply
+
   !> u = W r + q (d, nc).
   pure subroutine motions(flexibility, q, r, u)
     type(flexibility_t), intent(in) :: flexibility
     real(wp), intent(in) :: q(:, :), r(:, :)
     real(wp), intent(out) :: u(:, :)
-    integer :: a, k, j
     u = q
+    call add_motions(flexibility, r, u)
+  end subroutine motions
+
+  pure subroutine add_motions(flexibility, r, u)
+    class(flexibility_t), intent(in) :: flexibility
+    real(wp), intent(in) :: r(:, :)
+    real(wp), intent(inout) :: u(:, :)
+    integer :: a, k, j
     do a = 1, flexibility%contacts
       do k = flexibility%first(a), flexibility%first(a + 1) - 1
         do j = 1, flexibility%d
@@ -108,7 +127,7 @@ contains
         end do
       end do
     end do
-  end subroutine motions
+  end subroutine add_motions
 
   !> Mean of the diagonal of W [L/F].
   pure real(wp) function mean_of_diagonal(flexibility)

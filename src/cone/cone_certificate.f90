@@ -2,8 +2,8 @@
 !> How good a solution is: the natural map, scaled so that no unit enters, and the bi-potential.
 module cone_certificate
   use base_kinds, only: wp, zero, one
-  use cone_types, only: certificate_t
-  use cone_local, only: project_on_cone, tangent_length
+  use cone_types, only: certificate_t, most_components
+  use cone_local, only: predictor, project_on_cone, tangent_length
   implicit none
   private
   public :: certify, bipotential_residual, mean_diagonal
@@ -77,14 +77,14 @@ contains
     real(wp), intent(in) :: mu(:)
     real(wp), intent(in) :: r(:, :)
     real(wp), intent(in) :: u(:, :)
-    real(wp), dimension(size(r, 1)) :: tau, projected
-    integer :: a, status
+    real(wp), dimension(most_components) :: tau, projected
+    integer :: a, d, status
+    d = size(r, 1)
     natural_map = zero
     do a = 1, size(mu)
-      tau = r(:, a) - rho*u(:, a)
-      tau(1) = tau(1) - rho*mu(a)*tangent_length(u(:, a))
-      call project_on_cone(mu(a), tau, projected, status)
-      natural_map = natural_map + sum((r(:, a) - projected)**2)
+      call predictor(mu(a), rho, r(:, a), u(:, a), tau(:d))
+      call project_on_cone(mu(a), tau(:d), projected(:d), status)
+      natural_map = natural_map + sum((r(:, a) - projected(:d))**2)
     end do
     natural_map = sqrt(natural_map)
   end function natural_map

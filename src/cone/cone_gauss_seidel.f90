@@ -7,12 +7,13 @@ module cone_gauss_seidel
   use base_strings, only: to_text
   use cone_certificate, only: certify, mean_diagonal
   use cone_blocks, only: flexibility_t, blocks_from_dense
-  use cone_local, only: solve_local, project_on_cone, tangent_length
+  use cone_local, only: project_on_cone, predictor
   use cone_pivoting, only: pivot_statuses
   use cone_polish, only: polish_statuses
   use cone_solver, only: solve_contacts
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, size_cone_work, &
-      contact_open, contact_slip
+      contact_open, contact_slip, most_components
+  use cone_visit, only: visit_contact
   use linalg_dense, only: largest_eigenvalue_2
   implicit none
   private
@@ -118,7 +119,7 @@ contains
     type(cone_work_t), intent(inout) :: work
     real(wp), intent(inout) :: change
     integer, intent(inout) :: local_iterations
-    real(wp), dimension(size(r, 1)) :: u, old
+    real(wp), dimension(most_components) :: u, old
     real(wp) :: enough, sum_change
     integer :: a, i, d, row, iterations
     d = size(r, 1)
@@ -127,17 +128,17 @@ contains
     sum_change = zero
     do a = 1, size(mu)
       row = d*(a - 1)
-      old = r(:, a)
-      u = work%u(:, a)
-      call solve_local(w(row + 1:row + d, row + 1:row + d), mu(a), work%rho(a), enough, &
-          merge(1, options%max_local, change >= huge(change)), r(:, a), u, &
+      old(:d) = r(:, a)
+      u(:d) = work%u(:, a)
+      call visit_contact(options, w(row + 1:row + d, row + 1:row + d), mu(a), work%rho(a), &
+          enough, merge(1, options%max_local, change >= huge(change)), r(:, a), u(:d), &
           work%status(a), iterations)
       local_iterations = local_iterations + iterations
       do i = 1, d
         if (abs(r(i, a) - old(i)) > zero) &
             call add_column(w(:, row + i), r(i, a) - old(i), work%u)
       end do
-      sum_change = sum_change + sqrt(sum((r(:, a) - old)**2))
+      sum_change = sum_change + sqrt(sum((r(:, a) - old(:d))**2))
     end do
     change = sum_change
   end subroutine one_sweep
@@ -167,7 +168,6 @@ contains
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
-    real(wp) :: u(size(q, 1), size(q, 2))
     integer :: a, i, d
     logical :: ok
     call polish_statuses(w, q, mu, r, work, ok)
@@ -175,20 +175,20 @@ contains
     certificate%polishes = certificate%polishes + 1
     if (.not. ok) return
     d = size(q, 1)
-    u = q
+    work%trial_u = q
     do a = 1, size(mu)
       if (.not. in_cone(mu(a), work%trial(:, a))) return
       do i = 1, d
         if (abs(work%trial(i, a)) > zero) &
-            call add_column(w(:, d*(a - 1) + i), work%trial(i, a), u)
+            call add_column(w(:, d*(a - 1) + i), work%trial(i, a), work%trial_u)
       end do
     end do
     trial = certificate
-    call certify(m, mu, q, work%trial, u, options%tolerance, trial)
+    call certify(m, mu, q, work%trial, work%trial_u, options%tolerance, trial)
     if (.not. trial%met .or. trial%error > certificate%error) return
     certificate = trial
     r = work%trial
-    work%u = u
+    work%u = work%trial_u
   end subroutine try_polish
 
   !> Where sweeps are slow: complementary pivoting for few contacts in the plane, then the
@@ -249,8 +249,9 @@ contains
     type(flexibility_t) :: blocks
     type(status_t) :: answer
     real(wp), dimension(size(q, 1), size(q, 2)) :: other, u
-    real(wp), dimension(size(q, 1)) :: tau, projected
-    integer :: a
+    real(wp), dimension(most_components) :: tau, projected
+    integer :: a, d
+    d = size(q, 1)
     from_here = options
     from_here%warm_start = .true.
     other = r
@@ -265,9 +266,8 @@ contains
     r = other
     work%u = u
     do a = 1, size(mu)
-      tau = r(:, a) - u(:, a)/m
-      tau(1) = tau(1) - mu(a)*tangent_length(u(:, a))/m
-      call project_on_cone(mu(a), tau, projected, work%status(a))
+      call predictor(mu(a), one/m, r(:, a), u(:, a), tau(:d))
+      call project_on_cone(mu(a), tau(:d), projected(:d), work%status(a))
     end do
   end subroutine hand_over
 

@@ -1,11 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One contact: projection on Coulomb's cone and the bi-potential predictor/corrector.
+!> One contact: projection on Coulomb's cone, its derivative, and the bi-potential
+!> predictor/corrector. Vectors of a contact have at most `most_components` components, so that
+!> work space lies on the stack.
 module cone_local
   use base_kinds, only: wp, zero, one
-  use cone_types, only: contact_open, contact_stick, contact_slip
+  use cone_types, only: contact_open, contact_stick, contact_slip, most_components
   implicit none
   private
-  public :: project_on_cone, solve_local, tangent_length
+  public :: project_on_cone, predictor, contact_map, solve_local, tangent_length
 
 contains
 
@@ -44,6 +46,61 @@ contains
     end if
   end subroutine project_on_cone
 
+  !> dP/dtau (d, d) at tau, with P = projected and its status: zero, the identity, or on the slip
+  !> side that of the cone (Joli & Feng 2008).
+  pure subroutine projection_derivative(mu, tau, projected, status, part)
+    real(wp), intent(in) :: mu
+    real(wp), intent(in) :: tau(:)
+    real(wp), intent(in) :: projected(:)
+    integer, intent(in) :: status
+    real(wp), intent(out) :: part(:, :)
+    real(wp) :: length, share, t(most_components)
+    integer :: i, d
+    d = size(tau)
+    part = zero
+    if (status == contact_open) return
+    if (status == contact_stick) then
+      do i = 1, d
+        part(i, i) = one
+      end do
+      return
+    end if
+    length = tangent_length(tau)
+    t(:d) = tau/length
+    t(1) = zero
+    share = one/(one + mu**2)
+    part(1, 1) = share
+    do i = 2, d
+      part(1, i) = mu*share*t(i)
+      part(i, 1) = mu*share*t(i)
+      part(2:, i) = (mu**2*share - mu*projected(1)/length)*t(2:d)*t(i)
+      part(i, i) = part(i, i) + mu*projected(1)/length
+    end do
+  end subroutine projection_derivative
+
+  !> tau = r - rho (u_n + mu |u_t|, u_t) (De Saxce & Feng 1998).
+  pure subroutine predictor(mu, rho, r, u, tau)
+    real(wp), intent(in) :: mu, rho
+    real(wp), intent(in) :: r(:), u(:)
+    real(wp), intent(out) :: tau(:)
+    tau = r - rho*u
+    tau(1) = tau(1) - rho*mu*tangent_length(u)
+  end subroutine predictor
+
+  !> map = r - P_K(tau) of one contact, the derivative (d, d) of P_K at tau, the status there.
+  pure subroutine contact_map(mu, rho, r, u, map, part, status)
+    real(wp), intent(in) :: mu, rho, r(:), u(:)
+    real(wp), intent(out) :: map(:), part(:, :)
+    integer, intent(out) :: status
+    real(wp), dimension(most_components) :: tau, projected
+    integer :: d
+    d = size(r)
+    call predictor(mu, rho, r, u, tau(:d))
+    call project_on_cone(mu, tau(:d), projected(:d), status)
+    map = r - projected(:d)
+    call projection_derivative(mu, tau(:d), projected(:d), status, part)
+  end subroutine contact_map
+
   !> Predictor and corrector with the local law (De Saxce & Feng 1998):
   !>   tau = r - rho (u_n + mu |u_t|, u_t),  r = P_K(tau),  u = w r + q,
   !> repeated until r moves less than `enough`. On entry u belongs to r; on exit too.
@@ -57,19 +114,19 @@ contains
     real(wp), intent(inout) :: u(:)
     integer, intent(out) :: status
     integer, intent(out) :: iterations
-    real(wp), dimension(size(r)) :: tau, next, change
-    integer :: i
+    real(wp), dimension(most_components) :: tau, next, change
+    integer :: i, d
+    d = size(r)
     status = contact_open
     do iterations = 1, max_iterations
-      tau = r - rho*u
-      tau(1) = tau(1) - rho*mu*tangent_length(u)
-      call project_on_cone(mu, tau, next, status)
-      change = next - r
-      do i = 1, size(r)
+      call predictor(mu, rho, r, u, tau(:d))
+      call project_on_cone(mu, tau(:d), next(:d), status)
+      change(:d) = next(:d) - r
+      do i = 1, d
         u = u + w(:, i)*change(i)
       end do
-      r = next
-      if (maxval(abs(change)) <= enough) exit
+      r = next(:d)
+      if (maxval(abs(change(:d))) <= enough) exit
     end do
     iterations = min(iterations, max_iterations)
   end subroutine solve_local

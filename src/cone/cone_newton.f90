@@ -3,8 +3,8 @@
 !> rank. Unknowns are scaled: mean diagonal of W 1, largest |q| 1.
 module cone_newton
   use base_kinds, only: wp, zero, one, half
-  use cone_local, only: project_on_cone, tangent_length
-  use cone_types, only: contact_open, contact_stick
+  use cone_local, only: contact_map, tangent_length
+  use cone_types, only: most_components
   use linalg_dense, only: solve_general
   implicit none
   private
@@ -12,6 +12,8 @@ module cone_newton
 
   type :: newton_work_t
     real(wp), allocatable :: matrix(:, :), step(:, :), map(:, :), u(:, :), trial(:, :)
+    real(wp), allocatable :: start(:, :)      !< centre of the proximal term
+    real(wp), allocatable :: motion(:)        !< (d)
     real(wp), allocatable :: part(:, :, :)    !< (d, d, nc) derivative of the projection
     real(wp), allocatable :: right(:, :)
     integer, allocatable :: pivot(:), active(:), moving(:)
@@ -27,6 +29,7 @@ contains
     integer :: n
     n = d*contacts
     allocate (work%matrix(n, n), work%step(n, 1), work%map(d, contacts), work%u(d, contacts))
+    allocate (work%start(d, contacts), work%motion(d))
     allocate (work%trial(d, contacts), work%part(d, d, contacts), work%pivot(n))
     allocate (work%right(n, 1), work%active(contacts), work%moving(contacts))
     allocate (work%is_open(contacts))
@@ -45,11 +48,12 @@ contains
     type(newton_work_t), intent(inout) :: work
     real(wp), intent(out) :: norm
     integer, intent(out) :: steps
-    real(wp) :: r_0(size(r, 1), size(r, 2)), length, trial_norm
+    real(wp) :: length, trial_norm
     logical :: ok
-    integer :: k
-    r_0 = r
-    call natural_map(w, q, mu, rho, alpha, r_0, r, work%u, work%map, work%part)
+    integer :: a, d, k
+    d = size(r, 1)
+    work%start = r
+    call natural_map(w, q, mu, rho, alpha, r, work)
     norm = sqrt(sum(work%map**2))
     do steps = 1, most
       if (norm <= goal) return
@@ -57,8 +61,10 @@ contains
       if (.not. ok) return
       length = one
       do k = 1, 12
-        work%trial = r + length*reshape(work%step, shape(r))
-        call natural_map(w, q, mu, rho, alpha, r_0, work%trial, work%u, work%map, work%part)
+        do a = 1, size(mu)
+          work%trial(:, a) = r(:, a) + length*work%step(d*(a - 1) + 1:d*a, 1)
+        end do
+        call natural_map(w, q, mu, rho, alpha, work%trial, work)
         trial_norm = sqrt(sum(work%map**2))
         if (trial_norm <= (one - 1.0e-2_wp*length)*norm) exit
         length = half*length
@@ -69,50 +75,30 @@ contains
     end do
   end subroutine newton_solve
 
-  !> map = r - P_K(tau), u, and the derivative of P_K for each contact.
-  subroutine natural_map(w, q, mu, rho, alpha, r_0, r, u, map, part)
-    real(wp), intent(in) :: w(:, :), q(:, :), mu(:), rho(:), alpha, r_0(:, :), r(:, :)
-    real(wp), intent(out) :: u(:, :), map(:, :), part(:, :, :)
-    real(wp) :: tau(size(r, 1)), projected(size(r, 1))
-    integer :: a, status
-    u = reshape(matmul(w, reshape(r, [size(r)])), shape(r)) + q
-    u = u + alpha*(r - r_0)
+  !> u, map = r - P_K(tau), and the derivative of P_K for each contact, at r (d, nc).
+  pure subroutine natural_map(w, q, mu, rho, alpha, r, work)
+    real(wp), intent(in) :: w(:, :), q(:, :), mu(:), rho(:), alpha, r(:, :)
+    type(newton_work_t), intent(inout) :: work
+    integer :: a, d, status
+    d = size(r, 1)
+    work%u = q + alpha*(r - work%start)
+    call add_product(size(q), w, r, work%u)
     do a = 1, size(mu)
-      tau = r(:, a) - rho(a)*u(:, a)
-      tau(1) = tau(1) - rho(a)*mu(a)*tangent_length(u(:, a))
-      call project_on_cone(mu(a), tau, projected, status)
-      map(:, a) = r(:, a) - projected
-      call derivative(mu(a), tau, projected, status, part(:, :, a))
+      call contact_map(mu(a), rho(a), r(:, a), work%u(:, a), work%map(:, a), &
+          work%part(:, :, a), status)
     end do
   end subroutine natural_map
 
-  !> dP/dtau: zero, the identity, or on the slip side that of the cone (Joli & Feng 2008).
-  pure subroutine derivative(mu, tau, projected, status, part)
-    real(wp), intent(in) :: mu, tau(:), projected(:)
-    integer, intent(in) :: status
-    real(wp), intent(out) :: part(:, :)
-    real(wp) :: length, t(size(tau)), share
-    integer :: i
-    part = zero
-    if (status == contact_open) return
-    if (status == contact_stick) then
-      do i = 1, size(tau)
-        part(i, i) = one
-      end do
-      return
-    end if
-    length = tangent_length(tau)
-    t = tau/length
-    t(1) = zero
-    share = one/(one + mu**2)
-    part(1, 1) = share
-    part(1, 2:) = mu*share*t(2:)
-    part(2:, 1) = mu*share*t(2:)
-    do i = 2, size(tau)
-      part(2:, i) = mu**2*share*t(2:)*t(i) - mu*projected(1)/length*t(2:)*t(i)
-      part(i, i) = part(i, i) + mu*projected(1)/length
+  !> u = u + w r, both as one column.
+  pure subroutine add_product(n, w, r, u)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: w(:, :), r(n)
+    real(wp), intent(inout) :: u(n)
+    integer :: j
+    do j = 1, n
+      if (abs(r(j)) > zero) u = u + r(j)*w(:, j)
     end do
-  end subroutine derivative
+  end subroutine add_product
 
   !> The Newton step: open contacts have theirs at once, -map; the others solve the system
   !> (I - dP (I - rho (W + alpha I + mu e_n t' (W_t + alpha I)))) step = -map among themselves.
@@ -160,47 +146,72 @@ contains
     real(wp), intent(in) :: w(:, :), mu(:), rho(:), alpha
     integer, intent(in) :: n, others
     type(newton_work_t), intent(inout) :: work
-    real(wp) :: weight(size(work%u, 1), size(work%u, 1)), open_motion(size(work%u, 1))
-    integer :: a, b, d, k, j, row, column, first
+    real(wp), dimension(most_components, most_components) :: weight
+    integer :: a, d, k, i, j, row, column, first
     d = size(work%u, 1)
     do k = 1, n
       a = work%active(k)
       row = d*(k - 1)
       first = d*(a - 1)
-      weight = weight_of(rho(a)*work%part(:, :, a), mu(a), work%u(:, a))
+      call find_weight(rho(a), work%part(:, :, a), mu(a), work%u(:, a), weight(:d, :d))
       do j = 1, n
-        b = d*(work%active(j) - 1)
         do column = 1, d
-          work%matrix(row + 1:row + d, d*(j - 1) + column) = &
-              matmul(weight, w(first + 1:first + d, b + column))
+          call multiply(weight(:d, :d), w(first + 1:first + d, d*(work%active(j) - 1) + &
+              column), work%matrix(row + 1:row + d, d*(j - 1) + column))
         end do
       end do
-      work%right(row + 1:row + d, 1) = -work%map(:, a)
-      do j = 1, others
-        b = d*(work%moving(j) - 1)
-        open_motion = matmul(w(first + 1:first + d, b + 1:b + d), work%step(b + 1:b + d, 1))
-        work%right(row + 1:row + d, 1) = work%right(row + 1:row + d, 1) &
-            - matmul(weight, open_motion)
-      end do
+      call open_motion(w, first, others, work)
+      call multiply(weight(:d, :d), work%motion, work%right(row + 1:row + d, 1))
+      work%right(row + 1:row + d, 1) = -work%map(:, a) - work%right(row + 1:row + d, 1)
       do j = 1, d
-        work%matrix(row + 1:row + d, row + j) = work%matrix(row + 1:row + d, row + j) &
-            + alpha*weight(:, j) - work%part(:, j, a)
+        do i = 1, d
+          work%matrix(row + i, row + j) = work%matrix(row + i, row + j) &
+              + alpha*weight(i, j) - work%part(i, j, a)
+        end do
         work%matrix(row + j, row + j) = work%matrix(row + j, row + j) + one
       end do
     end do
   end subroutine fill_system
 
-  !> rho dP (I + mu e_n t'), t the direction of u_t.
-  pure function weight_of(scaled_part, mu, u) result(weight)
-    real(wp), intent(in) :: scaled_part(:, :), mu, u(:)
-    real(wp) :: weight(size(u), size(u)), length
+  !> What the steps of the open contacts move the contact of rows first + 1 on.
+  pure subroutine open_motion(w, first, others, work)
+    real(wp), intent(in) :: w(:, :)
+    integer, intent(in) :: first, others
+    type(newton_work_t), intent(inout) :: work
+    integer :: b, d, i, j
+    d = size(work%u, 1)
+    work%motion = zero
+    do j = 1, others
+      b = d*(work%moving(j) - 1)
+      do i = 1, d
+        work%motion = work%motion + w(first + 1:first + d, b + i)*work%step(b + i, 1)
+      end do
+    end do
+  end subroutine open_motion
+
+  !> y = a x.
+  pure subroutine multiply(a, x, y)
+    real(wp), intent(in) :: a(:, :), x(:)
+    real(wp), intent(out) :: y(:)
     integer :: j
-    weight = scaled_part
+    y = zero
+    do j = 1, size(x)
+      y = y + a(:, j)*x(j)
+    end do
+  end subroutine multiply
+
+  !> weight = rho dP (I + mu e_n t'), t the direction of u_t.
+  pure subroutine find_weight(rho, part, mu, u, weight)
+    real(wp), intent(in) :: rho, part(:, :), mu, u(:)
+    real(wp), intent(out) :: weight(:, :)
+    real(wp) :: length
+    integer :: j
+    weight = rho*part
     length = tangent_length(u)
     if (.not. length > zero) return
     do j = 2, size(u)
       weight(:, j) = weight(:, j) + weight(:, 1)*mu*u(j)/length
     end do
-  end function weight_of
+  end subroutine find_weight
 
 end module cone_newton

@@ -5,8 +5,8 @@
 module cone_proximal
   use base_kinds, only: wp, zero, one
   use cone_newton, only: newton_solve
-  use cone_scaled, only: scaled_t, look, make_dense, late
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_scaled, only: scaled_t, look, make_dense
+  use cone_types, only: cone_options_t, certificate_t, late
   implicit none
   private
   public :: proximal_newton
@@ -17,13 +17,13 @@ module cone_proximal
 contains
 
   !> From r of p to r that meets the tolerance, or the best on the way. plain_first: one Newton
-  !> attempt on W itself. Where forces must travel along a self-stress of the bodies until a
+  !> attempt on W itself; proximal: the loop. Where forces must travel along a self-stress of the bodies until a
   !> contact opens or slips, alpha times the distance is the error of a step: it does not fall
   !> on the way, so the path goes on from the last point, not from the best.
-  subroutine proximal_newton(options, p, plain_first, certificate)
+  subroutine proximal_newton(options, p, plain_first, proximal, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
-    logical, intent(in) :: plain_first
+    logical, intent(in) :: plain_first, proximal
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
     real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: best, last
@@ -33,7 +33,7 @@ contains
     best = p%r
     alpha = merge(zero, first_alpha, plain_first)
     do outer = 1, most_outer
-      if (late(options)) exit
+      if (late(options) .or. .not. (proximal .or. outer == 1)) exit
       last = p%r
       goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
       call newton_solve(p%dense, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &

@@ -6,17 +6,20 @@ module cone_scaled
   use cone_anderson, only: anderson_t, start_anderson, extrapolate
   use cone_blocks, only: flexibility_t, motions, dense_of_blocks
   use cone_certificate, only: certify
-  use cone_local, only: solve_local, project_on_cone
+  use cone_gradient, only: gradient_t, start_gradient, restart_gradient, gradient_step
+  use cone_local, only: project_on_cone
   use cone_newton, only: newton_work_t, size_newton
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_types, only: cone_options_t, certificate_t, most_components
+  use cone_visit, only: visit_contact
   use linalg_dense, only: largest_eigenvalue
   implicit none
   private
-  public :: scale_problem, sweep_chunk, accelerate, look, make_dense, late
+  public :: scale_problem, sweep_chunk, change_means, look, make_dense
 
   !> Sweeps between two looks at the error; pairs that the acceleration keeps.
   integer, parameter, public :: chunk = 10
   integer, parameter :: depth = 8
+  integer, parameter, public :: plain_sweeps = 1, anderson_sweeps = 2, momentum_steps = 3
 
   type, public :: scaled_t
     type(flexibility_t) :: w
@@ -24,7 +27,8 @@ module cone_scaled
     real(wp), allocatable :: mu(:)
     real(wp), allocatable :: rho(:)                      !< 1/lmax(W_aa)
     real(wp) :: change = huge(one)                       !< of r in the last sweep
-    logical :: accelerated = .false.
+    integer :: means = plain_sweeps
+    type(gradient_t) :: gradient
     real(wp), allocatable :: before(:, :)
     type(anderson_t) :: memory
     real(wp), allocatable :: dense(:, :)                 !< W for Newton, made when needed
@@ -50,15 +54,21 @@ contains
     end do
   end subroutine scale_problem
 
-  !> Switches the acceleration on or off; on, it starts without memory.
-  subroutine accelerate(p, on)
+  !> Goes on from r by other means, without memory.
+  subroutine change_means(p, means)
     type(scaled_t), intent(inout) :: p
-    logical, intent(in) :: on
-    p%accelerated = on
-    if (.not. on) return
-    call start_anderson(p%memory, size(p%r), depth)
-    if (.not. allocated(p%before)) allocate (p%before(size(p%r, 1), size(p%r, 2)))
-  end subroutine accelerate
+    integer, intent(in) :: means
+    p%means = means
+    select case (means)
+    case (anderson_sweeps)
+      call start_anderson(p%memory, size(p%r), depth)
+      if (.not. allocated(p%before)) allocate (p%before(size(p%r, 1), size(p%r, 2)))
+    case (momentum_steps)
+      if (.not. p%gradient%made) &
+          call start_gradient(p%w, p%w%block(:, :, p%w%diagonal), one, p%gradient)
+      call restart_gradient(p%r, p%gradient)
+    end select
+  end subroutine change_means
 
   !> u and the certificate of r as it is.
   subroutine look(p, tolerance, certificate)
@@ -69,16 +79,6 @@ contains
     call certify(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
   end subroutine look
 
-  !> Is the time that was given over?
-  logical function late(options)
-    type(cone_options_t), intent(in) :: options
-    real(wp) :: now
-    late = .false.
-    if (options%deadline >= huge(now)) return
-    call cpu_time(now)
-    late = now > options%deadline
-  end function late
-
   !> W as a dense matrix and the space for Newton, once.
   subroutine make_dense(p)
     type(scaled_t), intent(inout) :: p
@@ -88,22 +88,31 @@ contains
     call size_newton(p%newton, size(p%q, 1), size(p%q, 2))
   end subroutine make_dense
 
-  !> Some sweeps; the last of them always plain, so that r is in its cones.
+  !> Some sweeps, the last of them always plain, so that r is in its cones; or steps with
+  !> momentum.
   subroutine sweep_chunk(options, p, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
     type(certificate_t), intent(inout) :: certificate
-    real(wp) :: projected(size(p%q, 1))
-    integer :: k, a, status
+    real(wp) :: projected(most_components)
+    integer :: k, a, d, status
+    d = size(p%q, 1)
+    if (p%means == momentum_steps) then
+      do k = 1, chunk
+        call gradient_step(p%w, p%q, p%mu, p%r, p%gradient)
+      end do
+      certificate%sweeps = certificate%sweeps + chunk
+      return
+    end if
     do k = 1, chunk
-      if (p%accelerated) p%before = p%r
+      if (p%means == anderson_sweeps) p%before = p%r
       call one_sweep(options, p, certificate%local_iterations)
       certificate%sweeps = certificate%sweeps + 1
-      if (.not. p%accelerated .or. k == chunk) cycle
+      if (p%means == plain_sweeps .or. k == chunk) cycle
       call extrapolate(p%memory, size(p%r), p%before, p%r)
       do a = 1, size(p%mu)
-        call project_on_cone(p%mu(a), p%r(:, a), projected, status)
-        p%r(:, a) = projected
+        call project_on_cone(p%mu(a), p%r(:, a), projected(:d), status)
+        p%r(:, a) = projected(:d)
       end do
     end do
   end subroutine sweep_chunk
@@ -114,9 +123,10 @@ contains
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
     integer, intent(inout) :: local_iterations
-    real(wp), dimension(size(p%q, 1)) :: u, old
+    real(wp), dimension(most_components) :: u, old
     real(wp) :: enough, sum_change
-    integer :: a, k, j, iterations, status, most
+    integer :: a, k, j, d, iterations, status, most
+    d = size(p%q, 1)
     enough = zero
     most = 1
     if (p%change < huge(one)) then
@@ -125,17 +135,17 @@ contains
     end if
     sum_change = zero
     do a = 1, size(p%mu)
-      u = p%q(:, a)
+      u(:d) = p%q(:, a)
       do k = p%w%first(a), p%w%first(a + 1) - 1
-        do j = 1, size(u)
-          u = u + p%w%block(:, j, k)*p%r(j, p%w%column(k))
+        do j = 1, d
+          u(:d) = u(:d) + p%w%block(:, j, k)*p%r(j, p%w%column(k))
         end do
       end do
-      old = p%r(:, a)
-      call solve_local(p%w%block(:, :, p%w%diagonal(a)), p%mu(a), p%rho(a), enough, most, &
-          p%r(:, a), u, status, iterations)
+      old(:d) = p%r(:, a)
+      call visit_contact(options, p%w%block(:, :, p%w%diagonal(a)), p%mu(a), p%rho(a), &
+          enough, most, p%r(:, a), u(:d), status, iterations)
       local_iterations = local_iterations + iterations
-      sum_change = sum_change + sqrt(sum((p%r(:, a) - old)**2))
+      sum_change = sum_change + sqrt(sum((p%r(:, a) - old(:d))**2))
     end do
     p%change = sum_change
   end subroutine one_sweep

@@ -3,41 +3,24 @@
 !> do not know each other are solved one by one; in each: sweeps, accelerated sweeps, and Newton
 !> with a proximal loop where it is expected to be the cheaper. Every answer is certified.
 module cone_solver
-  use base_kinds, only: wp, zero, one, half
+  use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
   use cone_blocks, only: flexibility_t, motions, mean_of_diagonal, find_components, &
       take_component
   use cone_certificate, only: certify
+  use cone_course, only: course_t, watch, go_on
   use cone_pivoting, only: pivot_statuses
   use cone_polish, only: polish_statuses
   use cone_proximal, only: proximal_newton
-  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, accelerate, look, make_dense, &
-      late, chunk
-  use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work
+  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, look, make_dense
+  use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work, &
+      late
   implicit none
   private
   public :: solve_contacts
 
-  integer, parameter :: patience = 30          !< sweeps before the acceleration
-  integer, parameter :: trial = 80             !< sweeps before a Newton that costs more
-  integer, parameter :: span = 100             !< sweeps that must halve the error
   integer, parameter :: most_pivoted = 40      !< contacts of a complementary path
-  integer, parameter :: largest_newton = 2000  !< unknowns of a dense Newton step
-  !> Newton is expected to take about ten steps of n^3/2 operations at twice the speed of
-  !> sweeps, which take six operations a number of W.
-  real(wp), parameter :: newton_weight = 10.0_wp, sweep_weight = 6.0_wp
-
-  !> What is known of the course of the iterations.
-  type :: course_t
-    real(wp) :: start = huge(1.0_wp)     !< error at sweep `patience`
-    real(wp) :: best = huge(1.0_wp)
-    real(wp) :: marked = huge(1.0_wp)    !< error at the last mark
-    integer :: mark = 0
-    integer :: wait = 0                  !< no Newton before this sweep
-    logical :: stalled = .false.
-    logical :: tried_newton = .false.
-  end type course_t
 
 contains
 
@@ -125,7 +108,7 @@ contains
     type(course_t) :: course
     if (options%solver == 'PROX' .or. options%solver == 'NEWTON') then
       call look(p, options%tolerance, certificate)
-      call proximal_newton(options, p, options%solver == 'NEWTON', certificate)
+      call proximal_newton(options, p, options%solver == 'NEWTON', .true., certificate)
       if (certificate%met) return
     end if
     do while (certificate%sweeps < options%max_sweeps)
@@ -133,15 +116,14 @@ contains
       call sweep_chunk(options, p, certificate)
       call look(p, options%tolerance, certificate)
       if (certificate%met) return
-      call watch(options, p, certificate, course)
-      if (newton_due(options, p, certificate, course)) then
-        call proximal_newton(options, p, .not. course%tried_newton, certificate)
+      call watch(options, certificate, p, course)
+      if (course%newton_due) then
+        call proximal_newton(options, p, course%newtons == 0, course%proximal_due, certificate)
         if (certificate%met) return
-        if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted .and. &
-            .not. course%tried_newton) call try_pivoting(p, options%tolerance, certificate)
+        if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted .and. course%newtons == 0) &
+            call try_pivoting(p, options%tolerance, certificate)
         if (certificate%met) return
-        course%tried_newton = .true.
-        course%wait = 3*certificate%sweeps
+        call go_on(options, certificate, p, course)
       end if
     end do
   end subroutine iterate
@@ -172,44 +154,5 @@ contains
       p%r = kept
     end if
   end subroutine try_pivoting
-
-  !> Starts the acceleration; where a span of sweeps does not halve the error, changes between
-  !> plain and accelerated sweeps.
-  subroutine watch(options, p, certificate, course)
-    type(cone_options_t), intent(in) :: options
-    type(scaled_t), intent(inout) :: p
-    type(certificate_t), intent(in) :: certificate
-    type(course_t), intent(inout) :: course
-    course%best = min(course%best, certificate%error)
-    if (certificate%sweeps <= patience) course%start = certificate%error
-    if (options%solver == 'GS') return
-    if (certificate%sweeps == patience) call accelerate(p, .true.)
-    if (certificate%sweeps < course%mark + span) return
-    course%stalled = certificate%error > half*course%marked
-    course%marked = certificate%error
-    course%mark = certificate%sweeps
-    if (course%stalled) call accelerate(p, .not. p%accelerated)
-  end subroutine watch
-
-  !> Newton is due where sweeps stall, or would cost more at their rate.
-  pure logical function newton_due(options, p, certificate, course)
-    type(cone_options_t), intent(in) :: options
-    type(scaled_t), intent(in) :: p
-    type(certificate_t), intent(in) :: certificate
-    type(course_t), intent(in) :: course
-    real(wp) :: left, n, newton
-    n = real(size(p%q), wp)
-    newton = newton_weight*n**3/(sweep_weight*size(p%w%block))
-    newton_due = .false.
-    if (options%solver == 'GS' .or. options%solver == 'ANDERSON') return
-    if (n > largest_newton .or. certificate%sweeps <= course%wait) return
-    if (certificate%sweeps < 2*chunk) return
-    if (certificate%sweeps < trial .and. newton > trial) return
-    left = options%max_sweeps
-    if (certificate%sweeps <= patience) left = 10*span
-    if (course%best < course%start) left = min(left, (certificate%sweeps - patience) &
-        *log(options%tolerance/course%best)/log(course%best/course%start))
-    newton_due = course%stalled .or. left > newton
-  end function newton_due
 
 end module cone_solver

@@ -10,12 +10,18 @@ module cone_types
   integer, parameter, public :: contact_open = 0
   integer, parameter, public :: contact_stick = 1
   integer, parameter, public :: contact_slip = 2
+  integer, parameter, public :: most_components = 3
+  !> Local solvers: bi-potential projections, exact, Newton.
+  integer, parameter, public :: local_bipot = 1, local_exact = 2, local_newton = 3
+  character(8), parameter, public :: local_names(3) = [character(8) :: 'BIPOT', 'EXACT', &
+      'NEWTON']
 
   type, public :: cone_options_t
     character(8) :: solver = 'AUTO'      !< AUTO, GS
     real(wp) :: tolerance = 1.0e-10_wp   !< on error and on eta
     integer :: max_sweeps = 10000
     real(wp) :: rho_factor = 1.0_wp      !< rho = factor / lmax(W_aa)
+    integer :: local = local_bipot
     real(wp) :: local_tolerance = 1.0e-2_wp
     integer :: max_local = 50
     logical :: warm_start = .true.
@@ -45,15 +51,23 @@ module cone_types
     integer :: d = 0
     real(wp), allocatable :: u(:, :)       !< (d, nc) relative motion for the current r
     real(wp), allocatable :: rho(:)        !< (nc) [1/flexibility]
-    real(wp), allocatable :: trial(:, :)   !< (d, nc) reactions of a polish
+    real(wp), allocatable :: trial(:, :), trial_u(:, :)   !< (d, nc) of a polish
     integer, allocatable :: status(:), tried(:)
     real(wp), allocatable :: matrix(:, :), rhs(:, :)
     integer, allocatable :: pivot(:), unknown(:, :)
   end type cone_work_t
 
-  public :: size_cone_work
+  public :: size_cone_work, local_solver, late
 
 contains
+
+  !> The number of a local solver by its name; 0 = no such.
+  pure integer function local_solver(name)
+    character(*), intent(in) :: name
+    do local_solver = size(local_names), 1, -1
+      if (name == local_names(local_solver)) return
+    end do
+  end function local_solver
 
   !> Makes the work space for nc contacts of d components; does nothing when it fits already.
   pure subroutine size_cone_work(work, d, contacts)
@@ -64,14 +78,24 @@ contains
     if (work%contacts == contacts .and. work%d == d) return
     n = d*contacts
     if (allocated(work%u)) then
-      deallocate (work%u, work%rho, work%trial, work%status, work%tried)
-      deallocate (work%matrix, work%rhs, work%pivot, work%unknown)
+      deallocate (work%u, work%rho, work%trial, work%trial_u)
+      deallocate (work%status, work%tried, work%matrix, work%rhs, work%pivot, work%unknown)
     end if
     allocate (work%u(d, contacts), work%rho(contacts), work%trial(d, contacts))
-    allocate (work%status(contacts), work%tried(contacts))
+    allocate (work%trial_u(d, contacts), work%status(contacts), work%tried(contacts))
     allocate (work%matrix(n, n), work%rhs(n, 1), work%pivot(n), work%unknown(2, n))
     work%contacts = contacts
     work%d = d
   end subroutine size_cone_work
+
+  !> Is the time that was given over?
+  logical function late(options)
+    type(cone_options_t), intent(in) :: options
+    real(wp) :: now
+    late = .false.
+    if (options%deadline >= huge(now)) return
+    call cpu_time(now)
+    late = now > options%deadline
+  end function late
 
 end module cone_types

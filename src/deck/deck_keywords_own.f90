@@ -34,7 +34,7 @@ contains
     call add_field(table, 'TOL', 'R10 =1.0E-10 >0 <=0.01', 'of the certificate')
     call add_field(table, 'MAXIT', 'I10 =10000 >0', 'most sweeps of a solve')
     call add_field(table, 'RHO', 'R10 =1.0 >0 <2', 'factor on 1/lmax(W_aa)')
-    call add_field(table, 'LOCAL', 'W10 =BIPOT fixed', 'local solver')
+    call add_field(table, 'LOCAL', 'W10 =BIPOT |BIPOT|EXACT|NEWTON|', 'solver of one contact')
     call add_field(table, 'LTOL', 'R10 =0.01 >0 <=1', 'looseness of the local solves')
     call add_field(table, 'LMAXIT', 'I10 =50 >0', 'most local iterations')
     call add_field(table, 'WARM', 'I10 =1 >=0 <=1', &

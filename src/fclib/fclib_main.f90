@@ -7,19 +7,21 @@ program fclib_main
   use base_strings, only: to_text
   use base_system, only: leave
   use base_version, only: version
+  use cone_products, only: solve_by_products
   use cone_solver, only: solve_contacts
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_types, only: cone_options_t, certificate_t, local_solver
   use fclib_problem, only: problem_t, read_problem, write_problem, write_solution
   implicit none
   character(*), parameter :: usage = &
-      'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--max-time SECONDS]'// &
-      ' [-o FILE]'// &
+      'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--local L]'// &
+      ' [--max-time SECONDS] [-o FILE]'// &
       new_line('a')//'       bipact-fclib PROBLEM --convert FILE.hdf5'// &
-      new_line('a')//'  solvers: AUTO GS ANDERSON NEWTON PROX; tolerance 1e-8 unless given;'// &
+      new_line('a')//'  solvers: AUTO GS ANDERSON NEWTON PROX NESTEROV PRODUCTS; tolerance 1e-8 unless given;'// &
+      new_line('a')//'  local solvers (one contact in a sweep): BIPOT EXACT NEWTON;'// &
       new_line('a')//'  -o writes /solution (u, r, v) and /errors (HDF5)'// &
       new_line('a')//'  PROBLEM may be a contact_N.txt of bipact; --convert writes it as FCLIB'
-  character(8), parameter :: solvers(5) = [character(8) :: 'AUTO', 'GS', 'ANDERSON', &
-      'NEWTON', 'PROX']
+  character(8), parameter :: solvers(7) = [character(8) :: 'AUTO', 'GS', 'ANDERSON', &
+      'NEWTON', 'PROX', 'NESTEROV', 'PRODUCTS']
   type(cone_options_t) :: options
   type(problem_t) :: problem
   type(certificate_t) :: certificate
@@ -41,7 +43,13 @@ program fclib_main
     r = zero
     call cpu_time(start)
     options%deadline = start + seconds
-    call solve_contacts(options, problem%w, problem%q, problem%mu, r, u, certificate, answer)
+    if (options%solver == 'PRODUCTS') then
+      call solve_by_products(options, problem%w, &
+          problem%w%block(:, :, problem%w%diagonal), problem%q, problem%mu, r, u, certificate, &
+          answer)
+    else
+      call solve_contacts(options, problem%w, problem%q, problem%mu, r, u, certificate, answer)
+    end if
     call cpu_time(finish)
     write (output_unit, '(a)') &
         '# problem contacts dofs solver sweeps newton cpu error error2018 eta'
@@ -84,6 +92,11 @@ contains
         options%solver = argument(i + 1)
         if (all(options%solver /= solvers)) &
             call fail(status, status_deck, 'unknown solver "'//argument(i + 1)//'"', hint=usage)
+        i = i + 1
+      case ('--local')
+        options%local = local_solver(argument(i + 1))
+        if (options%local == 0) call fail(status, status_deck, &
+            'unknown local solver "'//argument(i + 1)//'"', hint=usage)
         i = i + 1
       case ('--convert')
         converted = argument(i + 1)

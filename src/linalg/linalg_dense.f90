@@ -15,8 +15,8 @@ module linalg_dense
     real(wp), allocatable :: l(:, :)    !< lower triangle of the Cholesky factor
   end type dense_spd_t
 
-  public :: dense_factor, dense_solve, dense_inverse, solve_general, largest_eigenvalue_2, &
-      largest_eigenvalue
+  public :: dense_factor, dense_solve, dense_inverse, solve_general, solve_small, &
+      largest_eigenvalue_2, largest_eigenvalue
 
   interface
     subroutine dpotrf(uplo, n, a, lda, info)
@@ -115,7 +115,7 @@ contains
 
   !> Largest eigenvalue of the symmetric part of a 2 x 2 matrix.
   pure real(wp) function largest_eigenvalue_2(a)
-    real(wp), intent(in) :: a(2, 2)
+    real(wp), intent(in) :: a(:, :)
     real(wp) :: mean, difference, shear
     mean = half*(a(1, 1) + a(2, 2))
     difference = half*(a(1, 1) - a(2, 2))
@@ -151,5 +151,37 @@ contains
           + 2.0_wp*spread*cos(acos(min(one, max(-one, half_determinant)))/3.0_wp)
     end select
   end function largest_eigenvalue
+
+  !> x = a^-1 b of order 1 to 3 by Cramer's rule; ok is false where a is singular to round-off.
+  pure subroutine solve_small(a, b, x, ok)
+    real(wp), intent(in) :: a(:, :), b(:)
+    real(wp), intent(out) :: x(:)
+    logical, intent(out) :: ok
+    real(wp) :: determinant, scale
+    scale = maxval(abs(a))
+    select case (size(b))
+    case (1)
+      determinant = a(1, 1)
+      ok = abs(determinant) > zero
+      if (ok) x(1) = b(1)/determinant
+    case (2)
+      determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
+      ok = abs(determinant) > 8.0_wp*epsilon(one)*scale**2
+      if (ok) x = [b(1)*a(2, 2) - a(1, 2)*b(2), a(1, 1)*b(2) - b(1)*a(2, 1)]/determinant
+    case default
+      determinant = dot_product(a(:, 1), cross(a(:, 2), a(:, 3)))
+      ok = abs(determinant) > 8.0_wp*epsilon(one)*scale**3
+      if (.not. ok) return
+      x(1) = dot_product(b, cross(a(:, 2), a(:, 3)))/determinant
+      x(2) = dot_product(a(:, 1), cross(b, a(:, 3)))/determinant
+      x(3) = dot_product(a(:, 1), cross(a(:, 2), b))/determinant
+    end select
+  end subroutine solve_small
+
+  pure function cross(a, b) result(c)
+    real(wp), intent(in) :: a(3), b(3)
+    real(wp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
 
 end module linalg_dense

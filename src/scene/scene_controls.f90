@@ -2,7 +2,7 @@
 !> Time, scheme, mass and solver options: from cards to the model.
 module scene_controls
   use base_kinds, only: wp, zero
-  use cone_types, only: cone_options_t
+  use cone_types, only: cone_options_t, local_solver
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_problem, add_note
   use linalg_solver, only: solver_options_t
@@ -151,6 +151,7 @@ contains
       cone%tolerance = deck%real(r, 'TOL')
       cone%max_sweeps = deck%integer(r, 'MAXIT')
       cone%rho_factor = deck%real(r, 'RHO')
+      cone%local = local_solver(deck%word(r, 'LOCAL'))
       cone%local_tolerance = deck%real(r, 'LTOL')
       cone%max_local = deck%integer(r, 'LMAXIT')
       cone%warm_start = deck%integer(r, 'WARM') == 1

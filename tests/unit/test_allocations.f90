@@ -1,0 +1,158 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Nothing is allocated in a sweep, in a Newton step, in a time step.
+program test_allocations
+  use base_kinds, only: wp, zero
+  use base_status, only: status_t, failed
+  use base_strings, only: to_text
+  use check, only: test_start, test_end, check_true, check_equal, seed_random
+  use cone_blocks, only: flexibility_t, dense_of_blocks
+  use cone_gauss_seidel, only: solve_cone
+  use cone_solver, only: solve_contacts
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_names
+  use count_allocations, only: allocations_so_far
+  use deck_parameter, only: override_t
+  use random_contacts, only: make_problem
+  use run_data, only: run_t
+  use run_loop, only: advance
+  use run_setup, only: read_scene, set_up
+  implicit none
+
+  call test_start('allocations')
+  call seed_random(4711)
+  call test_counter()
+  call test_iterations(2)
+  call test_iterations(3)
+  call test_step_solver()
+  call test_newton()
+  call test_steps('input/two_bars/theta.k', 400)
+  call test_steps('input/two_bars/newmark.k', 400)
+  call test_end()
+
+contains
+
+  !> The counter sees an allocation.
+  subroutine test_counter()
+    real(wp), allocatable :: x(:)
+    integer :: before
+    before = allocations_so_far()
+    allocate (x(1000 + before))
+    x = zero
+    call check_true(allocations_so_far() > before .and. size(x) > 0, 'an allocation is counted')
+  end subroutine test_counter
+
+  !> A problem that takes thousands of sweeps: 300 more of them, the same requests but for the
+  !> words of the failure, whose digits vary.
+  subroutine test_iterations(d)
+    integer, intent(in) :: d
+    type(flexibility_t) :: w
+    type(cone_options_t) :: options
+    integer, parameter :: n = 40, message = 30
+    real(wp) :: q(d, n), mu(n)
+    integer :: k, few, many
+    mu = 0.7_wp
+    call make_problem(d, n, 1.0e8_wp, 1.0_wp, mu(1), w, q)
+    options%solver = 'GS'
+    options%tolerance = 1.0e-15_wp
+    do k = 1, size(local_names)
+      options%local = k
+      few = requests(options, w, q, mu, 100)
+      many = requests(options, w, q, mu, 400)
+      call check_true(abs(many - few) < message, 'none in a sweep with '//local_names(k))
+    end do
+    options%solver = 'ANDERSON'
+    few = requests(options, w, q, mu, 40)
+    many = requests(options, w, q, mu, 90)
+    call check_true(abs(many - few) < message, 'none in an accelerated sweep')
+  end subroutine test_iterations
+
+  integer function requests(options, w, q, mu, sweeps)
+    type(cone_options_t), intent(in) :: options
+    type(flexibility_t), intent(in) :: w
+    real(wp), intent(in) :: q(:, :), mu(:)
+    integer, intent(in) :: sweeps
+    type(cone_options_t) :: limited
+    type(certificate_t) :: certificate
+    type(status_t) :: status
+    real(wp) :: r(size(q, 1), size(q, 2)), u(size(q, 1), size(q, 2))
+    integer :: before
+    limited = options
+    limited%max_sweeps = sweeps
+    r = zero
+    before = allocations_so_far()
+    call solve_contacts(limited, w, q, mu, r, u, certificate, status)
+    requests = allocations_so_far() - before
+    call check_true(failed(status), to_text(sweeps)//' sweeps are all used')
+  end function requests
+
+  !> Newton with a proximal loop: more steps for a smaller tolerance, the same requests.
+  subroutine test_newton()
+    type(flexibility_t) :: w
+    type(cone_options_t) :: options
+    type(certificate_t) :: certificate
+    type(status_t) :: status
+    real(wp) :: q(3, 12), mu(12), r(3, 12), u(3, 12)
+    integer :: k, before, got(2), steps(2)
+    mu = 0.7_wp
+    call make_problem(3, 12, 1.0e8_wp, 3.0_wp, mu(1), w, q)
+    options%solver = 'PROX'
+    do k = 1, 2
+      options%tolerance = merge(1.0e-2_wp, 1.0e-10_wp, k == 1)
+      r = zero
+      before = allocations_so_far()
+      call solve_contacts(options, w, q, mu, r, u, certificate, status)
+      got(k) = allocations_so_far() - before
+      steps(k) = certificate%newton_steps
+    end do
+    call check_true(steps(2) > steps(1), 'a smaller tolerance takes more Newton steps')
+    call check_equal(got(2), got(1), 'Newton steps')
+  end subroutine test_newton
+
+  !> The solver of a step with its work space made: none at all, with polish.
+  subroutine test_step_solver()
+    type(flexibility_t) :: w
+    type(cone_options_t) :: options
+    type(cone_work_t) :: work
+    type(certificate_t) :: certificate
+    type(status_t) :: status
+    real(wp) :: q(2, 10), mu(10), r(2, 10), dense(20, 20)
+    integer :: before, k
+    mu = 0.3_wp
+    call make_problem(2, 10, 1.0e2_wp, 1.0_wp, mu(1), w, q)
+    call dense_of_blocks(w, dense)
+    do k = 1, 2
+      r = zero
+      before = allocations_so_far()
+      call solve_cone(options, dense, q, mu, r, work, certificate, status)
+    end do
+    call check_true(certificate%met .and. certificate%polishes > 0, 'solved, with a polish')
+    call check_equal(allocations_so_far() - before, 0, 'the solver of a step')
+  end subroutine test_step_solver
+
+  !> Steps of a scene before, in and after its impact.
+  subroutine test_steps(deck, steps)
+    character(*), intent(in) :: deck
+    integer, intent(in) :: steps
+    type(run_t) :: run
+    type(override_t) :: overrides(1)
+    type(status_t) :: status
+    integer :: before, k
+    overrides(1)%name = 'dt'
+    overrides(1)%value = '1e-4'
+    call read_scene(deck, overrides, run, status)
+    call set_up(run, status)
+    call check_true(.not. failed(status), deck//' is set up')
+    before = allocations_so_far()
+    do k = 1, steps
+      call advance(run, status)
+    end do
+    call check_true(run%contact%solves > 0, deck//' has its impact')
+    ! A search, a new block or new rows of W make lists; a step makes none.
+    associate (c => run%contact)
+      call check_true(allocations_so_far() - before <= &
+          10*(c%searches + c%block_changes + c%w_builds), deck//': none in a step')
+      call check_true(10*(c%searches + c%block_changes + c%w_builds) < steps/2, &
+          deck//': the bound says something')
+    end associate
+  end subroutine test_steps
+
+end program test_allocations
