@@ -76,11 +76,11 @@ bench-features: ## what each feature costs absent, idle, active (instruction cou
 	+@$(again) all
 	@.venv/bin/python bench/features.py
 
-bench-fclib: ## all contact solvers over FCLIB=dir of problems; SOLVERS=AUTO,GS,...
+bench-fclib: ## all contact solvers over FCLIB=dir of problems; SOLVERS=AUTO,GS,...; SICONOS=/usr/bin/python3 beside them
 	+@$(again) venv
 	+@$(again) all
 	@.venv/bin/python bench/contact_problems.py $(or $(FCLIB),../shared/fclib) \
-	  $(if $(SOLVERS),--solvers $(SOLVERS)) $(if $(OUT),--out $(OUT))
+	  $(if $(SOLVERS),--solvers $(SOLVERS)) $(if $(SICONOS),--siconos $(SICONOS)) $(if $(OUT),--out $(OUT))
 
 report: ## error against run time on exact scenes, to doc/report; QUICK=1: minutes, to build/report
 	+@$(again) venv

@@ -2,7 +2,11 @@
 """All solvers of bipact-fclib over a folder of contact problems: table, CSV, and profiles of
 performance (Dolan & More 2002) at three tolerances.
 
-    contact_problems.py FOLDER [--solvers AUTO,GS,...] [--max-time 20] [--out FOLDER]
+    contact_problems.py FOLDER [--solvers AUTO,GS-EXACT,...] [--siconos PYTHON]
+                        [--max-time 20] [--out FOLDER]
+
+GS-EXACT is the solver GS with the local solver EXACT. --siconos adds the solvers of Siconos to
+the same table, run by a Python that has the package siconos.
 
 Errors are evaluated again from r alone by scripts/fclib.py; a run counts as solved when that
 error meets the tolerance. Times are processor seconds of the solve, the least of three; below
@@ -21,9 +25,10 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common
 import fclib as reader
+import siconos_solvers
 
 TOLERANCES = (1.0e-4, 1.0e-8, 1.0e-12)
-SOLVERS = "AUTO,GS,ANDERSON,NEWTON,PROX"
+SOLVERS = "AUTO,GS,GS-EXACT,GS-NEWTON,ANDERSON,NESTEROV,PRODUCTS,NEWTON,PROX"
 EQUAL = 4.0e-3
 PROGRAM = os.path.join(common.ROOT, "bin", "bipact-fclib")
 
@@ -53,6 +58,41 @@ def run(path, problem, solver, tolerance, seconds):
         return {
             "sweeps": int(words[4]),
             "newton": int(words[5]),
+            "seconds": min(times),
+            "error": error,
+            "error2018": error2018,
+            "eta": eta,
+            "solved": bool(error <= 1.01 * tolerance and eta <= 1.01 * tolerance),
+        }
+
+
+def run_siconos(python, problem, solver, tolerance, seconds):
+    """The same by Siconos; an empty line where the solver is not for problems of that kind."""
+    nothing = {"solved": False, "seconds": None, "error": None, "eta": None}
+    if solver not in siconos_solvers.SOLVERS[problem.d]:
+        return nothing
+    with tempfile.TemporaryDirectory() as folder:
+        path, answer = os.path.join(folder, "problem.dat"), os.path.join(folder, "r.txt")
+        siconos_solvers.write(path, problem)
+        command = [python, siconos_solvers.__file__, path, solver, repr(tolerance), answer]
+        times = []
+        for k in range(3):
+            try:
+                done = subprocess.run(
+                    command, capture_output=True, text=True, timeout=2.0 + 2.0 * seconds
+                )
+            except subprocess.TimeoutExpired:
+                return nothing
+            words = [line.split() for line in done.stdout.split("\n") if "answer" in line]
+            if not words:
+                return nothing
+            times.append(float(words[-1][2]))
+            if times[-1] > 0.2:
+                break
+        r = np.loadtxt(answer).reshape(problem.q.shape) / problem.m
+        error, error2018, eta = reader.errors(problem, r)
+        return {
+            "sweeps": int(words[-1][1]),
             "seconds": min(times),
             "error": error,
             "error2018": error2018,
@@ -98,7 +138,7 @@ def profile(results, tolerance, solvers, names, path):
 
 def cell(r):
     if r["seconds"] is None:
-        return "failed"
+        return "-"
     text = "<4" if r["seconds"] < EQUAL else "%.0f" % (1e3 * r["seconds"])
     return text if r["solved"] else "FAIL %.0e" % r["error"]
 
@@ -140,6 +180,7 @@ def main():
     )
     parser.add_argument("folder")
     parser.add_argument("--solvers", default=SOLVERS)
+    parser.add_argument("--siconos", metavar="PYTHON")
     parser.add_argument("--max-time", type=float, default=20.0)
     parser.add_argument("--out", default=os.path.join(common.ROOT, "build", "fclib"))
     a = parser.parse_args()
@@ -148,6 +189,9 @@ def main():
         print("no .hdf5 files in %s" % a.folder)
         return 1
     os.makedirs(a.out, exist_ok=True)
+    siconos = []
+    if a.siconos:
+        siconos = sorted(set(siconos_solvers.SOLVERS[3]) | set(siconos_solvers.SOLVERS[2]))
     solvers, results, sizes = a.solvers.split(","), {}, {}
     for path in files:
         name = os.path.basename(path)[:-5]
@@ -158,8 +202,14 @@ def main():
                 results[name, solver, tolerance] = run(
                     path, problem, solver, tolerance, a.max_time
                 )
+        for solver in siconos:
+            for tolerance in TOLERANCES:
+                results[name, "siconos " + solver, tolerance] = run_siconos(
+                    a.siconos, problem, solver, tolerance, a.max_time
+                )
         print(name, file=sys.stderr)
     names = list(sizes)
+    solvers += ["siconos " + solver for solver in siconos]
     write_tables(results, sizes, solvers, names, a.out)
     for tolerance in TOLERANCES:
         name = "profile_%.0e.png" % tolerance

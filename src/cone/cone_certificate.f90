@@ -2,11 +2,13 @@
 !> How good a solution is: the natural map, scaled so that no unit enters, and the bi-potential.
 module cone_certificate
   use base_kinds, only: wp, zero, one
+  use base_status, only: status_t, fail, status_numerical
+  use base_strings, only: to_text
   use cone_types, only: certificate_t, most_components
-  use cone_local, only: predictor, project_on_cone, tangent_length
+  use cone_local, only: may_wedge, predictor, project_on_cone, tangent_length
   implicit none
   private
-  public :: certify, bipotential_residual, mean_diagonal
+  public :: certify, bipotential_residual, mean_diagonal, fail_uncertified
 
   real(wp), parameter :: nothing = 1.0e-300_wp
 
@@ -70,6 +72,34 @@ contains
     certificate%met = certificate%error <= tolerance .and. certificate%eta <= tolerance &
         .and. depth <= 10.0_wp*tolerance*max(m*norm_r, norm_q, norm_u)
   end subroutine certify
+
+  !> The failure of a solve without certificate: what was spent, how near it came, and the
+  !> contact that misses its law most (certificate%worst); diagonal (d, d, nc) holds W_aa.
+  pure subroutine fail_uncertified(m, diagonal, mu, r, u, certificate, status)
+    real(wp), intent(in) :: m, diagonal(:, :, :), mu(:), r(:, :), u(:, :)
+    type(certificate_t), intent(inout) :: certificate
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: wedging
+    real(wp) :: largest, own
+    integer :: a
+    certificate%worst = 1
+    largest = zero
+    do a = 1, size(mu)
+      own = natural_map(one/m, mu(a:a), r(:, a:a), u(:, a:a))
+      if (.not. own > largest) cycle
+      largest = own
+      certificate%worst = a
+    end do
+    a = certificate%worst
+    wedging = ''
+    if (may_wedge(diagonal(:, :, a), mu(a))) &
+        wedging = ', and it wedges (mu |W_nt| > W_nn): it may have no solution'
+    call fail(status, status_numerical, 'the contact solve did not converge in '// &
+        to_text(certificate%sweeps)//' sweeps and '//to_text(certificate%newton_steps)// &
+        ' Newton steps: error '//to_text(certificate%error)//', eta '// &
+        to_text(certificate%eta)//'; contact '//to_text(a)//' misses its law most'//wedging, &
+        hint='raise MAXIT or TOL on *BIPACT_CONTACT, or refine the step')
+  end subroutine fail_uncertified
 
   !> |r - P_K(r - rho (u_n + mu |u_t|, u_t))| over all contacts.
   pure real(wp) function natural_map(rho, mu, r, u)

@@ -3,9 +3,8 @@
 !> the statuses it has found.
 module cone_gauss_seidel
   use base_kinds, only: wp, zero, one
-  use base_status, only: status_t, fail, status_numerical
-  use base_strings, only: to_text
-  use cone_certificate, only: certify, mean_diagonal
+  use base_status, only: status_t
+  use cone_certificate, only: certify, fail_uncertified, mean_diagonal
   use cone_blocks, only: flexibility_t, blocks_from_dense
   use cone_local, only: project_on_cone, predictor
   use cone_pivoting, only: pivot_statuses
@@ -68,11 +67,18 @@ contains
           call rescue(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end do
-    call fail(status, status_numerical, 'the contact solve did not converge in '// &
-        to_text(options%max_sweeps)//' sweeps: error '//to_text(certificate%error)//', eta '// &
-        to_text(certificate%eta), &
-        hint='raise MAXIT or TOL on *BIPACT_CONTACT, or refine the step')
+    call fail_uncertified(m, diagonal_blocks(w, size(q, 1)), mu, r, work%u, certificate, status)
   end subroutine solve_cone
+
+  pure function diagonal_blocks(w, d) result(diagonal)
+    real(wp), intent(in) :: w(:, :)
+    integer, intent(in) :: d
+    real(wp) :: diagonal(d, d, size(w, 1)/d)
+    integer :: a
+    do a = 1, size(diagonal, 3)
+      diagonal(:, :, a) = w(d*a - d + 1:d*a, d*a - d + 1:d*a)
+    end do
+  end function diagonal_blocks
 
   !> rho = factor / lmax(W_aa) per contact, and u for the starting reactions.
   pure subroutine start_sweeps(options, w, q, r, work)

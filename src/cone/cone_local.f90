@@ -7,7 +7,8 @@ module cone_local
   use cone_types, only: contact_open, contact_stick, contact_slip, most_components
   implicit none
   private
-  public :: project_on_cone, predictor, contact_map, solve_local, tangent_length
+  public :: project_on_cone, predictor, contact_map, solve_local, tangent_length, &
+      may_wedge
 
 contains
 
@@ -23,6 +24,14 @@ contains
       tangent_length = sqrt(v(2)**2 + v(3)**2)
     end select
   end function tangent_length
+
+  !> Does W_aa = w alone allow several answers, or none? mu |W_nt| > W_nn (Klarbring 1990).
+  pure logical function may_wedge(w, mu)
+    real(wp), intent(in) :: w(:, :)
+    real(wp), intent(in) :: mu
+    may_wedge = .false.
+    if (size(w, 1) > 1) may_wedge = mu*sqrt(sum(w(1, 2:)**2)) > w(1, 1)
+  end function may_wedge
 
   !> r = projection of tau on {|r_t| <= mu r_n}, and which part of the cone it lies on (De Saxce
   !> & Feng 1991). The polar cone is tested first.

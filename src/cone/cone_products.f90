@@ -2,9 +2,8 @@
 !> The contact problem where W is given as an operator (cone_operator), by its products alone.
 module cone_products
   use base_kinds, only: wp, zero
-  use base_status, only: status_t, fail, status_numerical
-  use base_strings, only: to_text
-  use cone_certificate, only: certify
+  use base_status, only: status_t
+  use cone_certificate, only: certify, fail_uncertified
   use cone_gradient, only: gradient_t, start_gradient, restart_gradient, gradient_step
   use cone_operator, only: operator_t
   use cone_types, only: cone_options_t, certificate_t, late
@@ -45,10 +44,7 @@ contains
       call certify(mean_of(diagonal), mu, q, r, u, options%tolerance, certificate)
       if (certificate%met) return
     end do
-    call fail(status, status_numerical, 'the contact solve did not converge in '// &
-        to_text(certificate%sweeps)//' products with W: error '// &
-        to_text(certificate%error)//', eta '//to_text(certificate%eta), &
-        hint='raise MAXIT or TOL')
+    call fail_uncertified(mean_of(diagonal), diagonal, mu, r, u, certificate, status)
   end subroutine solve_by_products
 
   !> Mean of the diagonal of W [L/F].

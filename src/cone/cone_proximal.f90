@@ -9,7 +9,7 @@ module cone_proximal
   use cone_types, only: cone_options_t, certificate_t, late
   implicit none
   private
-  public :: proximal_newton
+  public :: proximal_newton, raise_friction
 
   integer, parameter :: most_outer = 300, most_newton = 40
   real(wp), parameter :: first_alpha = 1.0e-1_wp
@@ -17,9 +17,9 @@ module cone_proximal
 contains
 
   !> From r of p to r that meets the tolerance, or the best on the way. plain_first: one Newton
-  !> attempt on W itself; proximal: the loop. Where forces must travel along a self-stress of the bodies until a
-  !> contact opens or slips, alpha times the distance is the error of a step: it does not fall
-  !> on the way, so the path goes on from the last point, not from the best.
+  !> attempt on W itself; proximal: the loop. Where forces must travel along a self-stress of the
+  !> bodies until a contact opens or slips, alpha times the distance is the error of a step: it
+  !> does not fall on the way, so the path goes on from the last point, not from the best.
   subroutine proximal_newton(options, p, plain_first, proximal, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
@@ -59,5 +59,47 @@ contains
     end do
     p%r = best
   end subroutine proximal_newton
+
+  !> Where contacts wedge: the law with little friction, which has an answer that Newton finds,
+  !> and from there more and more of it (a continuation in mu).
+  subroutine raise_friction(options, p, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(inout) :: p
+    type(certificate_t), intent(inout) :: certificate
+    real(wp), parameter :: first = 0.5_wp, smallest_factor = 1.01_wp
+    real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: kept, start
+    real(wp) :: mu(size(p%mu)), reached, factor
+    type(certificate_t) :: trial
+    start = p%r
+    mu = p%mu
+    kept = zero
+    reached = zero
+    factor = 2.0_wp
+    trial = certificate
+    do while (factor > smallest_factor)
+      if (late(options)) exit
+      p%mu = min(mu, merge(first, reached*factor, .not. reached > zero))
+      p%r = kept
+      call look(p, options%tolerance, trial)
+      if (.not. trial%met) call proximal_newton(options, p, .true., .true., trial)
+      if (trial%met) then
+        if (.not. any(p%mu < mu)) exit
+        reached = maxval(p%mu)
+        kept = p%r
+        factor = factor**2
+      else
+        if (.not. reached > zero) exit
+        factor = sqrt(factor)
+      end if
+    end do
+    p%mu = mu
+    certificate%newton_steps = trial%newton_steps
+    call look(p, options%tolerance, trial)
+    if (trial%met) then
+      certificate = trial
+    else
+      p%r = start
+    end if
+  end subroutine raise_friction
 
 end module cone_proximal

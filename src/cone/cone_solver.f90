@@ -4,15 +4,15 @@
 !> with a proximal loop where it is expected to be the cheaper. Every answer is certified.
 module cone_solver
   use base_kinds, only: wp, zero, one
-  use base_status, only: status_t, fail, status_numerical
-  use base_strings, only: to_text
+  use base_status, only: status_t
   use cone_blocks, only: flexibility_t, motions, mean_of_diagonal, find_components, &
       take_component
-  use cone_certificate, only: certify
+  use cone_certificate, only: certify, fail_uncertified
+  use cone_local, only: may_wedge
   use cone_course, only: course_t, watch, go_on
   use cone_pivoting, only: pivot_statuses
   use cone_polish, only: polish_statuses
-  use cone_proximal, only: proximal_newton
+  use cone_proximal, only: proximal_newton, raise_friction
   use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, look, make_dense
   use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work, &
       late
@@ -52,11 +52,9 @@ contains
     call certify(mean_of_diagonal(flexibility), mu, q, r, u, options%tolerance, &
         certificate)
     call count_wedging(flexibility, mu, r, certificate)
-    if (.not. certificate%met) call fail(status, status_numerical, &
-        'the contact solve did not converge in '//to_text(certificate%sweeps)// &
-        ' sweeps and '//to_text(certificate%newton_steps)//' Newton steps: error '// &
-        to_text(certificate%error)//', eta '//to_text(certificate%eta), &
-        hint='raise MAXIT or TOL')
+    if (certificate%met) return
+    call fail_uncertified(mean_of_diagonal(flexibility), &
+        flexibility%block(:, :, flexibility%diagonal), mu, r, u, certificate, status)
   end subroutine solve_contacts
 
   !> Contacts for which W_aa alone allows several answers: one was taken, which is told.
@@ -66,10 +64,8 @@ contains
     type(certificate_t), intent(inout) :: certificate
     integer :: a
     do a = 1, size(mu)
-      if (flexibility%d < 2 .or. .not. r(1, a) > zero) cycle
-      associate (w => flexibility%block(:, :, flexibility%diagonal(a)))
-        if (mu(a)*sqrt(sum(w(1, 2:)**2)) <= w(1, 1)) cycle
-      end associate
+      if (.not. r(1, a) > zero) cycle
+      if (.not. may_wedge(flexibility%block(:, :, flexibility%diagonal(a)), mu(a))) cycle
       if (certificate%wedged == 0) certificate%first_wedged = a
       certificate%wedged = certificate%wedged + 1
     end do
@@ -123,10 +119,23 @@ contains
         if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted .and. course%newtons == 0) &
             call try_pivoting(p, options%tolerance, certificate)
         if (certificate%met) return
+        if (course%newtons == 0 .and. some_wedge(p)) call raise_friction(options, p, certificate)
+        if (certificate%met) return
         call go_on(options, certificate, p, course)
       end if
     end do
   end subroutine iterate
+
+  !> Does some W_aa alone allow several answers?
+  pure logical function some_wedge(p)
+    type(scaled_t), intent(in) :: p
+    integer :: a
+    some_wedge = .false.
+    do a = 1, size(p%mu)
+      some_wedge = some_wedge .or. &
+          may_wedge(p%w%block(:, :, p%w%diagonal(a)), p%mu(a))
+    end do
+  end function some_wedge
 
   !> In the plane, where contacts wedge: the statuses of a complementary path, solved directly.
   subroutine try_pivoting(p, tolerance, certificate)

@@ -39,6 +39,7 @@ module cone_types
     integer :: local_iterations = 0
     integer :: polishes = 0        !< direct solves for given statuses
     integer :: newton_steps = 0
+    integer :: worst = 0           !< where it failed: the contact that misses its law most
     integer :: wedged = 0          !< contacts that push with mu |W_nt| > W_nn
     integer :: first_wedged = 0
     integer :: pivotings = 0       !< paths of complementary pivoting

@@ -3,10 +3,11 @@
 !> reactions. It does not know the scheme: the stage has said what the motion means.
 module contact_stage
   use base_kinds, only: wp, zero, half
-  use base_status, only: status_t, fail, failed, status_numerical
+  use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify, mean_diagonal
   use cone_gauss_seidel, only: solve_cone
+  use cone_local, only: may_wedge
   use cone_types, only: certificate_t, contact_open, size_cone_work
   use contact_condense, only: relative_motion, spread_force
   use contact_types, only: contact_t
@@ -19,7 +20,8 @@ contains
 
   !> Reactions for the free motion x_free (2, m) of the block; force (2, m) = H' r. acting is
   !> false when nothing touches, and then force is zero.
-  subroutine solve_contact(contact, x_free, force, acting, status)
+  subroutine solve_contact(model, contact, x_free, force, acting, status)
+    type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: x_free(:, :)
     real(wp), intent(out) :: force(:, :)
@@ -46,13 +48,14 @@ contains
     if (contact%rows == 0) return
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
-    call find_reactions(contact, force, certificate, status)
+    call find_reactions(model, contact, force, certificate, status)
     contact%solves = contact%solves + 1
     contact%solves_since_row = contact%solves_since_row + 1
   end subroutine solve_contact
 
   !> Reactions of the rows for q and the start in r, put into candidates and forces.
-  subroutine find_reactions(contact, force, certificate, status)
+  subroutine find_reactions(model, contact, force, certificate, status)
+    type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(inout) :: force(:, :)
     type(certificate_t), intent(out) :: certificate
@@ -60,6 +63,8 @@ contains
     integer :: k
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
         certificate, status)
+    if (certificate%worst > 0) call add_place(status, 'node '// &
+        to_text(model%node_id(contact%candidate(contact%row_of(certificate%worst))%node)))
     call keep_worst(certificate, contact%worst)
     call keep_worst(certificate, contact%worst_since_row)
     contact%sweeps = contact%sweeps + certificate%sweeps
@@ -81,7 +86,7 @@ contains
     integer :: k
     do k = 1, contact%rows
       if (.not. contact%r(1, k) > zero) cycle
-      if (contact%mu(k)*abs(contact%w(2*k - 1, 2*k)) <= contact%w(2*k - 1, 2*k - 1)) cycle
+      if (.not. may_wedge(contact%w(2*k - 1:2*k, 2*k - 1:2*k), contact%mu(k))) cycle
       if (contact%wedged == 0) contact%wedged_node = contact%candidate(contact%row_of(k))%node
       contact%wedged = contact%wedged + 1
     end do
@@ -91,7 +96,8 @@ contains
   !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the new
   !> reactions, more the change of it; both (2, m) [F]. done: they meet the certificate as they
   !> are.
-  subroutine correct_contact(contact, du, force, more, done, acting, status)
+  subroutine correct_contact(model, contact, du, force, more, done, acting, status)
+    type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: du(:, :)
     real(wp), intent(inout) :: force(:, :)
@@ -123,7 +129,7 @@ contains
         reshape(contact%r, [contact%d*contact%rows])), [contact%d, contact%rows])
     more = force
     force = zero
-    call find_reactions(contact, force, certificate, status)
+    call find_reactions(model, contact, force, certificate, status)
     more = force - more
     acting = acting .or. any(contact%r(1, :) > zero)
   end subroutine correct_contact

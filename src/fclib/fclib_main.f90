@@ -16,7 +16,8 @@ program fclib_main
       'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--local L]'// &
       ' [--max-time SECONDS] [-o FILE]'// &
       new_line('a')//'       bipact-fclib PROBLEM --convert FILE.hdf5'// &
-      new_line('a')//'  solvers: AUTO GS ANDERSON NEWTON PROX NESTEROV PRODUCTS; tolerance 1e-8 unless given;'// &
+      new_line('a')//'  solvers: AUTO GS ANDERSON NESTEROV NEWTON PROX PRODUCTS;'// &
+      ' tolerance 1e-8 unless given;'// &
       new_line('a')//'  local solvers (one contact in a sweep): BIPOT EXACT NEWTON;'// &
       new_line('a')//'  -o writes /solution (u, r, v) and /errors (HDF5)'// &
       new_line('a')//'  PROBLEM may be a contact_N.txt of bipact; --convert writes it as FCLIB'

@@ -106,7 +106,8 @@ contains
     if (.not. run%plan%contact) return
     do pass = 1, most_passes
       call run%timers%enter(phase_contact)
-      call correct_contact(run%contact, run%x, run%force, run%x_last, done, acting, status)
+      call correct_contact(run%model, run%contact, run%x, run%force, run%x_last, done, &
+          acting, status)
       if (done) return
       run%b = zero
       call add_block(run, run%x_last)
@@ -211,7 +212,7 @@ contains
     if (run%contact%n == 0 .or. size(run%contact%block) == 0) return
     call run%timers%enter(phase_contact)
     call build_w(run%contact)
-    call solve_contact(run%contact, run%x_last, run%force, acting, status)
+    call solve_contact(run%model, run%contact, run%x_last, run%force, acting, status)
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
