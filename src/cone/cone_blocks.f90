@@ -5,8 +5,8 @@ module cone_blocks
   use cone_operator, only: operator_t
   implicit none
   private
-  public :: blocks_from_dense, blocks_from_rows, motions, mean_of_diagonal, dense_of_blocks, &
-      find_components, take_component
+  public :: blocks_from_dense, blocks_from_rows, motions, add_motions, &
+      mean_of_diagonal, dense_of_blocks, find_components, take_component
 
   type, extends(operator_t), public :: flexibility_t
     integer :: d = 0, contacts = 0
@@ -115,6 +115,7 @@ contains
     call add_motions(flexibility, r, u)
   end subroutine motions
 
+  !> u = u + W r (d, nc).
   pure subroutine add_motions(flexibility, r, u)
     class(flexibility_t), intent(in) :: flexibility
     real(wp), intent(in) :: r(:, :)

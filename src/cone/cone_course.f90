@@ -3,6 +3,7 @@
 !> errors only. Costs are counted in sweeps.
 module cone_course
   use base_kinds, only: wp, half
+  use cone_newton, only: plan_newton
   use cone_scaled, only: scaled_t, change_means, chunk, plain_sweeps, anderson_sweeps, &
       momentum_steps
   use cone_types, only: cone_options_t, certificate_t
@@ -13,12 +14,11 @@ module cone_course
   integer, parameter :: patience = 30          !< sweeps before the acceleration
   integer, parameter :: span = 100             !< sweeps that must halve the error
   real(wp), parameter :: cheap = 80.0_wp       !< sweeps: a Newton of that cost comes first
-  integer, parameter :: largest_newton = 2000  !< unknowns of a dense Newton step
-  !> Newton is expected to take about ten steps of n^3/2 operations at twice the speed of
-  !> sweeps, which take six operations a number of W.
-  real(wp), parameter :: newton_weight = 10.0_wp, sweep_weight = 6.0_wp
-  !> A proximal loop takes many times that; steps with momentum get as much before it.
-  real(wp), parameter :: momentum_share = 10.0_wp
+  real(wp), parameter :: largest_newton = 1.0e8_wp  !< numbers of the matrix of a step
+  !> Newton is expected to take about fifteen steps; a sweep takes six operations a number of W.
+  real(wp), parameter :: newton_weight = 15.0_wp, sweep_weight = 6.0_wp
+  !> A proximal loop takes several times that; steps with momentum get as much before it.
+  real(wp), parameter :: momentum_share = 1.0_wp
 
   !> What is known of the course of the iterations.
   type, public :: course_t
@@ -54,7 +54,8 @@ contains
       course%mark = certificate%sweeps
       if (course%stalled) call change_means(p, other_means(options, p%means))
     end if
-    if (options%solver == 'ANDERSON') return
+    if (options%solver == 'ANDERSON' .or. certificate%sweeps < 2*chunk) return
+    call plan_newton(p%w, p%newton)
     course%newton_due = newton_pays(options, p, certificate, course)
     course%proximal_due = course%newtons > 0 .or. newton_cost(p) <= cheap
   end subroutine watch
@@ -84,7 +85,7 @@ contains
 
   pure real(wp) function newton_cost(p)
     type(scaled_t), intent(in) :: p
-    newton_cost = newton_weight*real(size(p%q), wp)**3/(sweep_weight*size(p%w%block))
+    newton_cost = newton_weight*p%newton%flops/(sweep_weight*size(p%w%block))
   end function newton_cost
 
   !> Newton pays where sweeps stall, or would cost more at their rate.
@@ -95,7 +96,7 @@ contains
     type(course_t), intent(in) :: course
     real(wp) :: left
     newton_pays = .false.
-    if (size(p%q) > largest_newton .or. certificate%sweeps < 2*chunk) return
+    if (p%newton%numbers > largest_newton) return
     if (certificate%sweeps < cheap .and. newton_cost(p) > cheap) return
     left = options%max_sweeps
     if (certificate%sweeps <= patience) left = 10*span

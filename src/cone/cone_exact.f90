@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> One contact solved exactly: every status is tried. In the plane slip has two directions; in
-!> space the direction of slip is a root of a trigonometric polynomial of degree two, the quartic
-!> of Bonnefon & Daviet (2011), here bracketed on the circle.
+!> space the direction of slip is a root of a trigonometric polynomial of degree two, the
+!> quartic of Bonnefon & Daviet (2011), here bracketed on the circle.
 module cone_exact
   use base_kinds, only: wp, zero, one, half
   use cone_types, only: contact_open, contact_stick, contact_slip, most_components
@@ -16,9 +16,9 @@ module cone_exact
 
 contains
 
-  !> r (d) and u = w r + q (d) of the law of contact and friction for W_aa = w (d, d); on entry u
-  !> belongs to r. Where several answers exist (wedging), the one nearest to r on entry. found is
-  !> false where there is none, or w is singular; r and u are then as before.
+  !> r (d) and u = w r + q (d) of the law of contact and friction for W_aa = w (d, d); on entry
+  !> u belongs to r. Where several answers exist (wedging), the one nearest to r on entry. found
+  !> is false where there is none, or w is singular; r and u are then as before.
   pure subroutine solve_exact(w, mu, r, u, status, found)
     real(wp), intent(in) :: w(:, :)
     real(wp), intent(in) :: mu

@@ -55,8 +55,8 @@ contains
     end if
   end subroutine project_on_cone
 
-  !> dP/dtau (d, d) at tau, with P = projected and its status: zero, the identity, or on the slip
-  !> side that of the cone (Joli & Feng 2008).
+  !> dP/dtau (d, d) at tau, with P = projected and its status: zero, the identity, or on the
+  !> slip side that of the cone (Joli & Feng 2008).
   pure subroutine projection_derivative(mu, tau, projected, status, part)
     real(wp), intent(in) :: mu
     real(wp), intent(in) :: tau(:)

@@ -1,45 +1,81 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Global Newton method on the natural map, with an outer proximal loop where W has not full
-!> rank. Unknowns are scaled: mean diagonal of W 1, largest |q| 1.
+!> Global Newton method on the natural map of all contacts. Unknowns are scaled: mean diagonal
+!> of W 1, largest |q| 1. The matrix of a step is banded where the contacts, numbered by reverse
+!> Cuthill-McKee, know but few others; else it is dense.
 module cone_newton
   use base_kinds, only: wp, zero, one, half
+  use cone_blocks, only: flexibility_t, add_motions
   use cone_local, only: contact_map, tangent_length
   use cone_types, only: most_components
-  use linalg_dense, only: solve_general
+  use linalg_dense, only: solve_general, solve_banded
+  use linalg_graph, only: graph_t
+  use linalg_order, only: reverse_cuthill_mckee
   implicit none
   private
-  public :: newton_work_t, size_newton, newton_solve
+  public :: newton_work_t, plan_newton, newton_solve
 
   type :: newton_work_t
-    real(wp), allocatable :: matrix(:, :), step(:, :), map(:, :), u(:, :), trial(:, :)
-    real(wp), allocatable :: start(:, :)      !< centre of the proximal term
-    real(wp), allocatable :: motion(:)        !< (d)
+    real(wp) :: flops = zero, numbers = zero  !< of a step; in its matrix
+    integer :: width = 0                      !< half of the band [unknowns]
+    logical :: banded = .false.
+    integer, allocatable :: order(:)          !< (nc) contacts by Cuthill-McKee
+    integer, allocatable :: place(:)          !< (nc) number among the active ones, 0 = open
+    real(wp), allocatable :: matrix(:, :), right(:, :)
+    integer, allocatable :: pivot(:)
+    real(wp), allocatable, dimension(:, :) :: start, map, u, trial, step   !< (d, nc)
     real(wp), allocatable :: part(:, :, :)    !< (d, d, nc) derivative of the projection
-    real(wp), allocatable :: right(:, :)
-    integer, allocatable :: pivot(:), active(:), moving(:)
-    logical, allocatable :: is_open(:)
   end type newton_work_t
 
 contains
 
-  !> Space for that many contacts of d components.
-  pure subroutine size_newton(work, d, contacts)
+  !> The order of the contacts and what a step will cost; no matrix yet.
+  subroutine plan_newton(w, work)
+    type(flexibility_t), intent(in) :: w
     type(newton_work_t), intent(inout) :: work
-    integer, intent(in) :: d, contacts
-    integer :: n
-    n = d*contacts
-    allocate (work%matrix(n, n), work%step(n, 1), work%map(d, contacts), work%u(d, contacts))
-    allocate (work%start(d, contacts), work%motion(d))
-    allocate (work%trial(d, contacts), work%part(d, d, contacts), work%pivot(n))
-    allocate (work%right(n, 1), work%active(contacts), work%moving(contacts))
-    allocate (work%is_open(contacts))
+    type(graph_t) :: graph
+    integer :: a, n, band
+    if (allocated(work%order)) return
+    graph%n = w%contacts
+    graph%first = w%first
+    graph%column = w%column
+    call reverse_cuthill_mckee(graph, [(a, a=1, w%contacts)], [integer ::], work%order)
+    allocate (work%place(w%contacts))
+    work%place(work%order) = [(a, a=1, w%contacts)]
+    band = 0
+    do a = 1, w%contacts
+      band = max(band, maxval(abs(work%place(w%column(w%first(a):w%first(a + 1) - 1)) - &
+          work%place(a))))
+    end do
+    n = w%d*w%contacts
+    work%width = w%d*(band + 1) - 1
+    ! The factor of a band, with room for its row exchanges, costs 4 n width^2.
+    work%banded = 6*real(work%width, wp)**2 < real(n, wp)**2
+    work%flops = real(n, wp)**3/1.5_wp
+    if (work%banded) work%flops = 4*real(n, wp)*real(work%width, wp)**2
+    work%numbers = real(n, wp)*merge(3*work%width + 1, n, work%banded)
+  end subroutine plan_newton
+
+  !> Space for the steps, once.
+  subroutine size_newton(w, work)
+    type(flexibility_t), intent(in) :: w
+    type(newton_work_t), intent(inout) :: work
+    integer :: d, n, nc
+    call plan_newton(w, work)
+    if (allocated(work%matrix)) return
+    d = w%d
+    nc = w%contacts
+    n = d*nc
+    allocate (work%matrix(merge(3*work%width + 1, n, work%banded), n), work%right(n, 1))
+    allocate (work%pivot(n), work%part(d, d, nc))
+    allocate (work%start(d, nc), work%map(d, nc), work%u(d, nc), work%trial(d, nc))
+    allocate (work%step(d, nc))
   end subroutine size_newton
 
-  !> Newton steps with line search for r = P_K(r - rho (u_n + mu |u_t|, u_t)), u = w r + q +
+  !> Newton steps with line search for r = P_K(r - rho (u_n + mu |u_t|, u_t)), u = W r + q +
   !> alpha (r - r_0), until |map| <= goal or the line search finds no way down; the best r is
-  !> kept. w (d nc, d nc), rho (nc), all scaled.
+  !> kept. rho (nc), all scaled.
   subroutine newton_solve(w, q, mu, rho, alpha, goal, most, r, work, norm, steps)
-    real(wp), intent(in) :: w(:, :)
+    type(flexibility_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :)
     real(wp), intent(in) :: mu(:), rho(:)
     real(wp), intent(in) :: alpha, goal
@@ -50,8 +86,8 @@ contains
     integer, intent(out) :: steps
     real(wp) :: length, trial_norm
     logical :: ok
-    integer :: a, d, k
-    d = size(r, 1)
+    integer :: k
+    call size_newton(w, work)
     work%start = r
     call natural_map(w, q, mu, rho, alpha, r, work)
     norm = sqrt(sum(work%map**2))
@@ -61,9 +97,7 @@ contains
       if (.not. ok) return
       length = one
       do k = 1, 12
-        do a = 1, size(mu)
-          work%trial(:, a) = r(:, a) + length*work%step(d*(a - 1) + 1:d*a, 1)
-        end do
+        work%trial = r + length*work%step
         call natural_map(w, q, mu, rho, alpha, work%trial, work)
         trial_norm = sqrt(sum(work%map**2))
         if (trial_norm <= (one - 1.0e-2_wp*length)*norm) exit
@@ -77,117 +111,104 @@ contains
 
   !> u, map = r - P_K(tau), and the derivative of P_K for each contact, at r (d, nc).
   pure subroutine natural_map(w, q, mu, rho, alpha, r, work)
-    real(wp), intent(in) :: w(:, :), q(:, :), mu(:), rho(:), alpha, r(:, :)
+    type(flexibility_t), intent(in) :: w
+    real(wp), intent(in) :: q(:, :), mu(:), rho(:), alpha, r(:, :)
     type(newton_work_t), intent(inout) :: work
-    integer :: a, d, status
-    d = size(r, 1)
+    integer :: a, status
     work%u = q + alpha*(r - work%start)
-    call add_product(size(q), w, r, work%u)
+    call add_motions(w, r, work%u)
     do a = 1, size(mu)
       call contact_map(mu(a), rho(a), r(:, a), work%u(:, a), work%map(:, a), &
           work%part(:, :, a), status)
     end do
   end subroutine natural_map
 
-  !> u = u + w r, both as one column.
-  pure subroutine add_product(n, w, r, u)
-    integer, intent(in) :: n
-    real(wp), intent(in) :: w(:, :), r(n)
-    real(wp), intent(inout) :: u(n)
-    integer :: j
-    do j = 1, n
-      if (abs(r(j)) > zero) u = u + r(j)*w(:, j)
-    end do
-  end subroutine add_product
-
   !> The Newton step: open contacts have theirs at once, -map; the others solve the system
   !> (I - dP (I - rho (W + alpha I + mu e_n t' (W_t + alpha I)))) step = -map among themselves.
   subroutine find_step(w, mu, rho, alpha, work, ok)
-    real(wp), intent(in) :: w(:, :), mu(:), rho(:), alpha
+    type(flexibility_t), intent(in) :: w
+    real(wp), intent(in) :: mu(:), rho(:), alpha
     type(newton_work_t), intent(inout) :: work
     logical, intent(out) :: ok
-    integer :: a, d, k, n, others
-    d = size(work%u, 1)
-    call part_contacts(size(mu), work, n, others)
-    call fill_system(w, mu, rho, alpha, n, others, work)
+    integer :: a, d, k, n
+    d = w%d
+    n = 0
+    work%step = -work%map
+    do k = 1, size(mu)
+      a = work%order(k)
+      work%place(a) = 0
+      if (.not. any(abs(work%part(:, :, a)) > zero)) cycle
+      n = n + 1
+      work%place(a) = n
+    end do
+    work%matrix(:, :d*n) = zero
+    do a = 1, size(mu)
+      if (work%place(a) > 0) call fill_rows(w, a, mu(a), rho(a), alpha, work)
+    end do
     ok = .true.
-    if (n > 0) call solve_general(d*n, work%matrix, work%right, work%pivot, ok)
+    if (n == 0) return
+    if (work%banded) then
+      call solve_banded(d*n, work%width, work%matrix, work%right, work%pivot, ok)
+    else
+      call solve_general(d*n, work%matrix, work%right, work%pivot, ok)
+    end if
     if (.not. ok) return
-    do k = 1, n
-      a = work%active(k)
-      work%step(d*(a - 1) + 1:d*a, 1) = work%right(d*(k - 1) + 1:d*k, 1)
+    do a = 1, size(mu)
+      k = work%place(a)
+      if (k > 0) work%step(:, a) = work%right(d*(k - 1) + 1:d*k, 1)
     end do
   end subroutine find_step
 
-  !> Contacts 1 to contacts into those of the system (active) and the open ones that move.
-  subroutine part_contacts(contacts, work, n, others)
-    integer, intent(in) :: contacts
+  !> The rows of active contact a; the steps of the open ones go to the right side.
+  pure subroutine fill_rows(w, a, mu, rho, alpha, work)
+    type(flexibility_t), intent(in) :: w
+    integer, intent(in) :: a
+    real(wp), intent(in) :: mu, rho, alpha
     type(newton_work_t), intent(inout) :: work
-    integer, intent(out) :: n, others
-    integer :: a, d
-    d = size(work%u, 1)
-    n = 0
-    others = 0
-    do a = 1, contacts
-      work%step(d*(a - 1) + 1:d*a, 1) = -work%map(:, a)
-      work%is_open(a) = .not. any(abs(work%part(:, :, a)) > zero)
-      if (work%is_open(a) .and. any(abs(work%map(:, a)) > zero)) then
-        others = others + 1
-        work%moving(others) = a
+    real(wp), dimension(most_components, most_components) :: weight, block
+    real(wp), dimension(most_components) :: motion
+    integer :: d, k, j, row, b, i
+    d = w%d
+    row = d*(work%place(a) - 1)
+    call find_weight(rho, work%part(:, :, a), mu, work%u(:, a), weight(:d, :d))
+    motion = zero
+    do k = w%first(a), w%first(a + 1) - 1
+      b = w%column(k)
+      if (work%place(b) == 0) then
+        do j = 1, d
+          motion(:d) = motion(:d) + w%block(:, j, k)*work%step(j, b)
+        end do
+        cycle
       end if
-      if (work%is_open(a)) cycle
-      n = n + 1
-      work%active(n) = a
-    end do
-  end subroutine part_contacts
-
-  !> The system of the active contacts, the steps of the open ones on its right side.
-  subroutine fill_system(w, mu, rho, alpha, n, others, work)
-    real(wp), intent(in) :: w(:, :), mu(:), rho(:), alpha
-    integer, intent(in) :: n, others
-    type(newton_work_t), intent(inout) :: work
-    real(wp), dimension(most_components, most_components) :: weight
-    integer :: a, d, k, i, j, row, column, first
-    d = size(work%u, 1)
-    do k = 1, n
-      a = work%active(k)
-      row = d*(k - 1)
-      first = d*(a - 1)
-      call find_weight(rho(a), work%part(:, :, a), mu(a), work%u(:, a), weight(:d, :d))
-      do j = 1, n
-        do column = 1, d
-          call multiply(weight(:d, :d), w(first + 1:first + d, d*(work%active(j) - 1) + &
-              column), work%matrix(row + 1:row + d, d*(j - 1) + column))
-        end do
-      end do
-      call open_motion(w, first, others, work)
-      call multiply(weight(:d, :d), work%motion, work%right(row + 1:row + d, 1))
-      work%right(row + 1:row + d, 1) = -work%map(:, a) - work%right(row + 1:row + d, 1)
       do j = 1, d
-        do i = 1, d
-          work%matrix(row + i, row + j) = work%matrix(row + i, row + j) &
-              + alpha*weight(i, j) - work%part(i, j, a)
+        call multiply(weight(:d, :d), w%block(:, j, k), block(:d, j))
+      end do
+      if (b == a) then
+        do j = 1, d
+          block(:d, j) = block(:d, j) + alpha*weight(:d, j) - work%part(:, j, a)
+          block(j, j) = block(j, j) + one
         end do
-        work%matrix(row + j, row + j) = work%matrix(row + j, row + j) + one
-      end do
+      end if
+      call put_block(block(:d, :d), row, d*(work%place(b) - 1), work)
     end do
-  end subroutine fill_system
+    call multiply(weight(:d, :d), motion(:d), block(:d, 1))
+    do i = 1, d
+      work%right(row + i, 1) = -work%map(i, a) - block(i, 1)
+    end do
+  end subroutine fill_rows
 
-  !> What the steps of the open contacts move the contact of rows first + 1 on.
-  pure subroutine open_motion(w, first, others, work)
-    real(wp), intent(in) :: w(:, :)
-    integer, intent(in) :: first, others
+  !> A block into the matrix, dense or by diagonals as LAPACK keeps a band.
+  pure subroutine put_block(block, row, column, work)
+    real(wp), intent(in) :: block(:, :)
+    integer, intent(in) :: row, column
     type(newton_work_t), intent(inout) :: work
-    integer :: b, d, i, j
-    d = size(work%u, 1)
-    work%motion = zero
-    do j = 1, others
-      b = d*(work%moving(j) - 1)
-      do i = 1, d
-        work%motion = work%motion + w(first + 1:first + d, b + i)*work%step(b + i, 1)
-      end do
+    integer :: j, first
+    do j = 1, size(block, 2)
+      first = row
+      if (work%banded) first = row + 2*work%width + 1 - (column + j)
+      work%matrix(first + 1:first + size(block, 1), column + j) = block(:, j)
     end do
-  end subroutine open_motion
+  end subroutine put_block
 
   !> y = a x.
   pure subroutine multiply(a, x, y)

@@ -5,38 +5,40 @@
 module cone_proximal
   use base_kinds, only: wp, zero, one
   use cone_newton, only: newton_solve
-  use cone_scaled, only: scaled_t, look, make_dense
+  use cone_scaled, only: scaled_t, look
   use cone_types, only: cone_options_t, certificate_t, late
   implicit none
   private
   public :: proximal_newton, raise_friction
 
-  integer, parameter :: most_outer = 300, most_newton = 40
+  integer, parameter, public :: most_loops = 300
+  integer, parameter :: few_loops = 60, most_newton = 40
   real(wp), parameter :: first_alpha = 1.0e-1_wp
 
 contains
 
   !> From r of p to r that meets the tolerance, or the best on the way. plain_first: one Newton
-  !> attempt on W itself; proximal: the loop. Where forces must travel along a self-stress of the
-  !> bodies until a contact opens or slips, alpha times the distance is the error of a step: it
-  !> does not fall on the way, so the path goes on from the last point, not from the best.
-  subroutine proximal_newton(options, p, plain_first, proximal, certificate)
+  !> attempt on W itself; loops: how often on W + alpha I, after it. Where forces must travel
+  !> along a self-stress of the bodies until a contact opens or slips, alpha times the distance
+  !> is the error of a step: it does not fall on the way, so the path goes on from the last
+  !> point, not from the best.
+  subroutine proximal_newton(options, p, plain_first, loops, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
-    logical, intent(in) :: plain_first, proximal
+    logical, intent(in) :: plain_first
+    integer, intent(in) :: loops
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
     real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: best, last
     real(wp) :: alpha, norm, goal
     integer :: outer, steps
-    call make_dense(p)
     best = p%r
     alpha = merge(zero, first_alpha, plain_first)
-    do outer = 1, most_outer
-      if (late(options) .or. .not. (proximal .or. outer == 1)) exit
+    do outer = 1, loops + merge(1, 0, plain_first)
+      if (late(options)) exit
       last = p%r
       goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
-      call newton_solve(p%dense, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &
+      call newton_solve(p%w, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &
           norm, steps)
       certificate%newton_steps = certificate%newton_steps + steps
       trial = certificate
@@ -81,7 +83,7 @@ contains
       p%mu = min(mu, merge(first, reached*factor, .not. reached > zero))
       p%r = kept
       call look(p, options%tolerance, trial)
-      if (.not. trial%met) call proximal_newton(options, p, .true., .true., trial)
+      if (.not. trial%met) call proximal_newton(options, p, .true., few_loops, trial)
       if (trial%met) then
         if (.not. any(p%mu < mu)) exit
         reached = maxval(p%mu)

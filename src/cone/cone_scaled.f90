@@ -4,17 +4,17 @@
 module cone_scaled
   use base_kinds, only: wp, zero, one
   use cone_anderson, only: anderson_t, start_anderson, extrapolate
-  use cone_blocks, only: flexibility_t, motions, dense_of_blocks
+  use cone_blocks, only: flexibility_t, motions
   use cone_certificate, only: certify
   use cone_gradient, only: gradient_t, start_gradient, restart_gradient, gradient_step
   use cone_local, only: project_on_cone
-  use cone_newton, only: newton_work_t, size_newton
+  use cone_newton, only: newton_work_t
   use cone_types, only: cone_options_t, certificate_t, most_components
   use cone_visit, only: visit_contact
   use linalg_dense, only: largest_eigenvalue
   implicit none
   private
-  public :: scale_problem, sweep_chunk, change_means, look, make_dense
+  public :: scale_problem, sweep_chunk, change_means, look
 
   !> Sweeps between two looks at the error; pairs that the acceleration keeps.
   integer, parameter, public :: chunk = 10
@@ -31,7 +31,6 @@ module cone_scaled
     type(gradient_t) :: gradient
     real(wp), allocatable :: before(:, :)
     type(anderson_t) :: memory
-    real(wp), allocatable :: dense(:, :)                 !< W for Newton, made when needed
     type(newton_work_t) :: newton
   end type scaled_t
 
@@ -78,15 +77,6 @@ contains
     call motions(p%w, p%q, p%r, p%u)
     call certify(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
   end subroutine look
-
-  !> W as a dense matrix and the space for Newton, once.
-  subroutine make_dense(p)
-    type(scaled_t), intent(inout) :: p
-    if (allocated(p%dense)) return
-    allocate (p%dense(size(p%q), size(p%q)))
-    call dense_of_blocks(p%w, p%dense)
-    call size_newton(p%newton, size(p%q, 1), size(p%q, 2))
-  end subroutine make_dense
 
   !> Some sweeps, the last of them always plain, so that r is in its cones; or steps with
   !> momentum.

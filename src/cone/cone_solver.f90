@@ -6,14 +6,14 @@ module cone_solver
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t
   use cone_blocks, only: flexibility_t, motions, mean_of_diagonal, find_components, &
-      take_component
+      take_component, dense_of_blocks
   use cone_certificate, only: certify, fail_uncertified
   use cone_local, only: may_wedge
   use cone_course, only: course_t, watch, go_on
   use cone_pivoting, only: pivot_statuses
   use cone_polish, only: polish_statuses
-  use cone_proximal, only: proximal_newton, raise_friction
-  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, look, make_dense
+  use cone_proximal, only: proximal_newton, raise_friction, most_loops
+  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, look
   use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work, &
       late
   implicit none
@@ -104,7 +104,7 @@ contains
     type(course_t) :: course
     if (options%solver == 'PROX' .or. options%solver == 'NEWTON') then
       call look(p, options%tolerance, certificate)
-      call proximal_newton(options, p, options%solver == 'NEWTON', .true., certificate)
+      call proximal_newton(options, p, options%solver == 'NEWTON', most_loops, certificate)
       if (certificate%met) return
     end if
     do while (certificate%sweeps < options%max_sweeps)
@@ -114,12 +114,14 @@ contains
       if (certificate%met) return
       call watch(options, certificate, p, course)
       if (course%newton_due) then
-        call proximal_newton(options, p, course%newtons == 0, course%proximal_due, certificate)
+        call proximal_newton(options, p, course%newtons == 0, &
+            merge(most_loops, 0, course%proximal_due), certificate)
         if (certificate%met) return
         if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted .and. course%newtons == 0) &
             call try_pivoting(p, options%tolerance, certificate)
         if (certificate%met) return
-        if (course%newtons == 0 .and. some_wedge(p)) call raise_friction(options, p, certificate)
+        if (course%newtons == 0 .and. some_wedge(p)) &
+            call raise_friction(options, p, certificate)
         if (certificate%met) return
         call go_on(options, certificate, p, course)
       end if
@@ -145,13 +147,14 @@ contains
     type(certificate_t) :: trial
     type(cone_work_t) :: work
     real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: kept, start
+    real(wp) :: dense(size(p%r), size(p%r))
     logical :: ok
-    call make_dense(p)
+    call dense_of_blocks(p%w, dense)
     call size_cone_work(work, 2, size(p%mu))
     start(1, :) = one
-    call pivot_statuses(p%dense, p%q, p%mu, work%status, start(2, :), ok)
+    call pivot_statuses(dense, p%q, p%mu, work%status, start(2, :), ok)
     certificate%pivotings = certificate%pivotings + 1
-    if (ok) call polish_statuses(p%dense, p%q, p%mu, start, work, ok)
+    if (ok) call polish_statuses(dense, p%q, p%mu, start, work, ok)
     if (.not. ok) return
     kept = p%r
     p%r = work%trial

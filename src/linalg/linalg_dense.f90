@@ -15,8 +15,8 @@ module linalg_dense
     real(wp), allocatable :: l(:, :)    !< lower triangle of the Cholesky factor
   end type dense_spd_t
 
-  public :: dense_factor, dense_solve, dense_inverse, solve_general, solve_small, &
-      largest_eigenvalue_2, largest_eigenvalue
+  public :: dense_factor, dense_solve, dense_inverse, solve_general, solve_banded, &
+      solve_small, largest_eigenvalue_2, largest_eigenvalue
 
   interface
     subroutine dpotrf(uplo, n, a, lda, info)
@@ -49,6 +49,14 @@ module linalg_dense
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dgesv
+    subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+      import :: wp
+      integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
+      real(wp), intent(inout) :: ab(ldab, *)
+      integer, intent(out) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dgbsv
   end interface
 
 contains
@@ -112,6 +120,19 @@ contains
     call dgesv(n, size(b, 2), a, size(a, 1), pivot, b, size(b, 1), info)
     ok = info == 0
   end subroutine solve_general
+
+  !> The same for a band of `width` on either side of the diagonal, kept by diagonals: a(i, j)
+  !> of the matrix is a(2 width + 1 + i - j, j), the first `width` rows are room for exchanges.
+  subroutine solve_banded(n, width, a, b, pivot, ok)
+    integer, intent(in) :: n, width
+    real(wp), intent(inout) :: a(:, :)
+    real(wp), intent(inout) :: b(:, :)
+    integer, intent(inout) :: pivot(:)
+    logical, intent(out) :: ok
+    integer :: info
+    call dgbsv(n, width, width, size(b, 2), a, size(a, 1), pivot, b, size(b, 1), info)
+    ok = info == 0
+  end subroutine solve_banded
 
   !> Largest eigenvalue of the symmetric part of a 2 x 2 matrix.
   pure real(wp) function largest_eigenvalue_2(a)

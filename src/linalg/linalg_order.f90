@@ -8,7 +8,7 @@ module linalg_order
   use linalg_graph, only: graph_t
   implicit none
   private
-  public :: choose_order, count_factor, symbolic_factor
+  public :: choose_order, count_factor, symbolic_factor, reverse_cuthill_mckee
 
   !> Below this many multiplications METIS is not asked: its own run would cost more than it
   !> saves.

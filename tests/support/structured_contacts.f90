@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Structured contact problems of any size, of which something is known: bodies that do not turn,
-!> each contact between two of them (0 = the ground, which does not move).
+!> Structured contact problems of any size, of which something is known: bodies that do not
+!> turn, each contact between two of them (0 = the ground, which does not move).
 !>   STACK  blocks on each other under gravity: each contact carries what is above it
 !>   CHAIN  one ball hits a row of balls that touch: they go on together
 !>   CUPS   cups in each other, two contacts at each rim: forces are not unique, their resultant
@@ -70,7 +70,7 @@ contains
     if (size(axis, 1) > 2) axis(3, 3) = one
   end subroutine set_axes
 
-  !> W_ab = sum over common bodies of +- axis_a axis_b' / mass.
+  !> W_ab = sum over shared bodies of +- axis_a axis_b' / mass.
   subroutine make_w(d, s)
     integer, intent(in) :: d
     type(structure_t), intent(inout) :: s

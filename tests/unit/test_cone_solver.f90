@@ -113,7 +113,8 @@ contains
     end do
     call check_equal(wrong, 0, trim(solver)//': cones, gaps, statuses')
     ! Sweeps alone may end without an answer, and then say so.
-    if (solver /= 'ANDERSON' .and. solver /= 'NESTEROV') call check_equal(unsolved, 0, trim(solver)//': all certified')
+    if (solver /= 'ANDERSON' .and. solver /= 'NESTEROV') &
+        call check_equal(unsolved, 0, trim(solver)//': all certified')
   end subroutine test_random
 
   subroutine solve_one(options, d, n, condition, redundancy, mu_1, unsolved, wrong)
@@ -140,9 +141,9 @@ contains
     end do
   end subroutine solve_one
 
-  !> What is known of stacks, chains and cups. Only one contact closes on its own: the news must
-  !> pass the whole structure. The condition of W grows with n^2, and so does what the certificate
-  !> leaves of the reactions.
+  !> What is known of stacks, chains and cups. Only one contact closes on its own: the news
+  !> must pass the whole structure. The condition of W grows with n^2, and so does what the
+  !> certificate leaves of the reactions.
   subroutine test_structure(kind, d, n)
     character(*), intent(in) :: kind
     integer, intent(in) :: d, n
@@ -159,8 +160,8 @@ contains
     call check_close(misfit(s, r), zero, n**2*options%tolerance, kind//': what is known')
   end subroutine test_structure
 
-  !> By products with W alone: the answer of the other means, to the two certificates, where W is
-  !> well conditioned and the answer one.
+  !> By products with W alone: the answer of the other means, to the two certificates, where W
+  !> is well conditioned and the answer one.
   subroutine test_products()
     type(flexibility_t) :: w
     type(cone_options_t) :: options
@@ -172,15 +173,15 @@ contains
     r = zero
     other = zero
     call solve_contacts(options, w, q, mu, r, u, certificate, status)
-    call solve_by_products(options, w, w%block(:, :, w%diagonal), q, mu, other, u, certificate, &
-        status)
+    call solve_by_products(options, w, w%block(:, :, w%diagonal), q, mu, other, u, &
+        certificate, status)
     call check_true(.not. failed(status) .and. certificate%met, 'by products: certified')
     call check_close(norm2(r - other), zero, 1.0e-7_wp*norm2(r), 'by products: the same')
     options%max_sweeps = 10
     options%warm_start = .false.
-    call solve_by_products(options, w, w%block(:, :, w%diagonal), q, mu, other, u, certificate, &
-        status)
-    call check_true(failed(status) .and. certificate%worst > 0, 'by products: a failure is told')
+    call solve_by_products(options, w, w%block(:, :, w%diagonal), q, mu, other, u, &
+        certificate, status)
+    call check_true(failed(status) .and. certificate%worst > 0, 'by products: a miss is told')
   end subroutine test_products
 
   !> Two problems in one, their contacts mixed: two groups, and the reactions of each alone.

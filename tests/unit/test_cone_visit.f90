@@ -5,7 +5,7 @@ program test_cone_visit
   use check, only: test_start, test_end, check_true, check_close, check_equal, seed_random
   use cone_exact, only: solve_exact
   use cone_local, only: contact_map
-  use cone_types, only: cone_options_t, local_bipot, local_exact, local_newton, contact_open, &
+  use cone_types, only: cone_options_t, local_exact, local_newton, contact_open, &
       contact_stick, contact_slip
   use cone_visit, only: visit_contact
   use linalg_dense, only: largest_eigenvalue, solve_small
