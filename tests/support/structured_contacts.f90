@@ -85,7 +85,7 @@ contains
       do i = 1, d
         pointer(d*(a - 1) + i) = k + 1
         do b = max(1, a - 3), min(nc, a + 3)
-          block = common_mass(s, a, b)*matmul(s%axis(:, :, a), transpose(s%axis(:, :, b)))
+          block = shared_mass(s, a, b)*matmul(s%axis(:, :, a), transpose(s%axis(:, :, b)))
           if (.not. any(abs(block) > zero)) cycle
           do j = 1, d
             k = k + 1
@@ -100,12 +100,12 @@ contains
   end subroutine make_w
 
   !> Motion of contact a by a unit force at b, both along one axis.
-  pure real(wp) function common_mass(s, a, b)
+  pure real(wp) function shared_mass(s, a, b)
     type(structure_t), intent(in) :: s
     integer, intent(in) :: a, b
-    common_mass = share(s, s%high(a), s%high(b)) + share(s, s%low(a), s%low(b)) &
+    shared_mass = share(s, s%high(a), s%high(b)) + share(s, s%low(a), s%low(b)) &
         - share(s, s%high(a), s%low(b)) - share(s, s%low(a), s%high(b))
-  end function common_mass
+  end function shared_mass
 
   pure real(wp) function share(s, a, b)
     type(structure_t), intent(in) :: s
