@@ -13,10 +13,11 @@ endif
 
 B := build/$(FLAVOUR)
 BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
+STORE_BIN := bin/bipact-hdf5$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 FCLIB_BIN := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
 SUPPORT := $(B)/libsupport.a
-# HDF5, for bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
+# HDF5, for bipact-hdf5 and bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
 HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
                 /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
 HDF5_LIBS ?= $(if $(findstring serial,$(HDF5_MODULES)),-lhdf5_serial_fortran -lhdf5_serial,-lhdf5_fortran -lhdf5)
@@ -37,10 +38,10 @@ light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench
          stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: $(BIN) $(if $(wildcard src/fclib/*.f90),$(if $(HDF5_MODULES),$(FCLIB_BIN),no-hdf5)) ## build bin/bipact, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+all: $(BIN) $(if $(wildcard src/hdf5/*.f90),$(if $(HDF5_MODULES),$(STORE_BIN) $(FCLIB_BIN),no-hdf5)) ## build bin/bipact, bin/bipact-hdf5, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
 
 no-hdf5:
-	@echo 'bipact-fclib is left out: no HDF5 modules for Fortran; "make deps" installs them'
+	@echo 'bipact-hdf5 (fields, restarts) and bipact-fclib are left out: no HDF5 modules for Fortran; "make deps" installs them'
 
 demo: ## install what is missing, build, run the two-bar impact and draw its figures
 	+@$(again) venv
@@ -141,7 +142,9 @@ endif
 
 version := $(B)/gen/base_version.f90
 sources := $(wildcard src/*/*.f90 src/*/*.F90) $(version)
+hdf5 := $(wildcard src/hdf5/*.f90)
 fclib := $(wildcard src/fclib/*.f90)
+store := $(wildcard src/store/*.f90)
 support := $(wildcard tests/support/*.f90)
 units := $(wildcard tests/unit/test_*.f90)
 benches := $(wildcard bench/*.f90)
@@ -163,7 +166,7 @@ define compile
 @mkdir -p $(@D) $(B)/mod
 @echo "  FC   $<"
 $(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) \
-  $(if $(filter src/fclib/%,$<),-I$(HDF5_MODULES)) -J$(B)/mod -c $< -o $@ \
+  $(if $(filter src/hdf5/% src/fclib/% src/store/%,$<),-I$(HDF5_MODULES)) -J$(B)/mod -c $< -o $@ \
   2>$(@:.o=.log) || { cat $(@:.o=.log) >&2; exit 1; }; cat $(@:.o=.log) >&2
 endef
 
@@ -177,7 +180,9 @@ endef
 $(BIN): $(B)/obj/main.o $(LIB) $(B)/flags
 	$(link)
 
-$(FCLIB_BIN): $(call object,$(fclib)) $(LIB) $(B)/flags
+$(FCLIB_BIN): $(call object,$(fclib) $(hdf5)) $(LIB) $(B)/flags
+$(STORE_BIN): $(call object,$(store) $(hdf5)) $(LIB) $(B)/flags
+$(FCLIB_BIN) $(STORE_BIN):
 	@mkdir -p $(@D)
 	@echo "  LINK $@"
 	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(HDF5_LIBS) \
@@ -201,7 +206,7 @@ $(SUPPORT): $(call object,$(support)) $(B)/deps.mk
 	$(Q)ar rcs $@ $(filter %.o,$^)
 
 # Made anew, also when only the list of sources (in deps.mk) changed: no stale member stays in it.
-$(LIB): $(call object,$(filter-out src/run/main.f90 $(fclib),$(sources))) $(B)/deps.mk
+$(LIB): $(call object,$(filter-out src/run/main.f90 $(hdf5) $(fclib) $(store),$(sources))) $(B)/deps.mk
 	$(Q)rm -f $@
 	$(Q)ar rcs $@ $(filter %.o,$^)
 

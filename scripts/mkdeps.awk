@@ -8,16 +8,19 @@
 
 BEGIN {
   # Lowest first. A layer may use itself and all lower ones, unless `only` or `never` says less.
-  n = split("base linalg cone fclib deck material element model scene contact assembly time output run", \
+  n = split("base linalg cone hdf5 fclib deck material element model scene contact assembly time output run" \
+            " store", \
             order, " ")
   for (i = 1; i <= n; i++) rank[order[i]] = i
   only["cone"] = " base linalg "        # the contact solver is usable without the rest
-  only["fclib"] = " base linalg cone "  # its program reads files of contact problems
+  only["hdf5"] = " base "
+  only["fclib"] = " base linalg cone hdf5 "  # its program reads files of contact problems
   only["deck"] = " base "               # the reader knows no mechanics
   never["contact"] = " material element "
 
   main["src/run/main.f90"]
   main["src/fclib/fclib_main.f90"]
+  main["src/store/store_main.f90"]
   for (i = 1; i < ARGC; i++) register(ARGV[i])
 }
 
@@ -50,7 +53,7 @@ function register(path,   part, n, name, folder) {
 
 words == 2 && word[1] == "program" {
   if (layer[FILENAME] != "" && !(FILENAME in main))
-    fail(FILENAME ":" FNR, "a program belongs to src/run/main.f90 or src/fclib/fclib_main.f90")
+    fail(FILENAME ":" FNR, "a program belongs to src/run/main.f90, src/fclib/fclib_main.f90 or src/store/store_main.f90")
   program[FILENAME] = word[2]
 }
 
@@ -79,6 +82,8 @@ function check_use(path, name,   where, from, to) {
   to = layer[source[name]]
   if (to == "") fail(where, "a source may not use " name " of the tests")
   else if (from == to) return
+  else if (to == "hdf5" && from != "fclib" && from != "store")
+    fail(where, "layer hdf5 is for fclib and store alone: bipact starts without the library")
   else if (rank[to] > rank[from] || (from in only && !index(only[from], " " to " ")) \
            || (from in never && index(never[from], " " to " ")))
     fail(where, "layer " from " may not use " name " of layer " to)

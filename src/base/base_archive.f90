@@ -28,8 +28,10 @@ module base_archive
     procedure :: exchange_vector
     procedure :: exchange_matrix
     procedure :: exchange_integers
+    procedure :: exchange_logical
+    procedure :: exchange_logicals
     generic :: exchange => exchange_integer, exchange_real, exchange_vector, exchange_matrix, &
-        exchange_integers
+        exchange_integers, exchange_logical, exchange_logicals
   end type archive_t
 
 contains
@@ -52,6 +54,7 @@ contains
     real(wp), intent(inout) :: values(:)
     if (failed(this%status)) return
     if (this%mode == archive_save) then
+      if (this%n == size(this%entry)) call enlarge(this)
       this%n = this%n + 1
       this%entry(this%n)%name = name
       this%entry(this%n)%values = values
@@ -67,6 +70,14 @@ contains
       this%next = this%next + 1
     end if
   end subroutine exchange_vector
+
+  subroutine enlarge(this)
+    class(archive_t), intent(inout) :: this
+    type(archive_entry_t), allocatable :: more(:)
+    allocate (more(2*size(this%entry)))
+    more(:this%n) = this%entry
+    call move_alloc(more, this%entry)
+  end subroutine enlarge
 
   subroutine exchange_real(this, name, number)
     class(archive_t), intent(inout) :: this
@@ -107,5 +118,25 @@ contains
     call this%exchange_vector(name, values)
     numbers = nint(values)
   end subroutine exchange_integers
+
+  subroutine exchange_logical(this, name, is)
+    class(archive_t), intent(inout) :: this
+    character(*), intent(in) :: name
+    logical, intent(inout) :: is
+    integer :: number
+    number = merge(1, 0, is)
+    call this%exchange_integer(name, number)
+    is = number /= 0
+  end subroutine exchange_logical
+
+  subroutine exchange_logicals(this, name, are)
+    class(archive_t), intent(inout) :: this
+    character(*), intent(in) :: name
+    logical, intent(inout) :: are(:)
+    integer :: numbers(size(are))
+    numbers = merge(1, 0, are)
+    call this%exchange_integers(name, numbers)
+    are = numbers /= 0
+  end subroutine exchange_logicals
 
 end module base_archive

@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The few calls to the operating system that Fortran has no word for.
 module base_system
-  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char
+  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, &
+      c_null_ptr, c_loc, c_size_t
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: make_folder, is_terminal, leave
+  public :: make_folder, is_terminal, leave, become_sibling
 
   interface
     integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
@@ -26,6 +27,17 @@ module base_system
       import :: c_int
       integer(c_int), value, intent(in) :: code
     end subroutine c_exit
+    integer(c_int) function c_execv(path, arguments) bind(c, name='execv')
+      import :: c_int, c_char, c_ptr
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(in) :: arguments(*)
+    end function c_execv
+    integer(c_size_t) function c_readlink(path, text, size) bind(c, name='readlink')
+      import :: c_size_t, c_char
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(out) :: text(*)
+      integer(c_size_t), value, intent(in) :: size
+    end function c_readlink
   end interface
 
 contains
@@ -58,5 +70,47 @@ contains
     integer, intent(in) :: code
     call c_exit(int(code, c_int))
   end subroutine leave
+
+  !> Becomes another program that lies beside this one, with the same arguments: its name is
+  !> that of this one with `ending` after the first word (bipact-debug: bipact-ending-debug).
+  !> Returns only where there is none, with its path.
+  subroutine become_sibling(ending, path)
+    character(*), intent(in) :: ending
+    character(:), allocatable, intent(out) :: path
+    integer, parameter :: longest = 4096
+    character(kind=c_char), allocatable, target :: word(:, :)
+    type(c_ptr), allocatable :: list(:)
+    character(longest) :: text
+    character(kind=c_char) :: own(longest)
+    integer(c_size_t) :: length
+    integer(c_int) :: ignored
+    integer :: k, i, n, dash
+    length = c_readlink('/proc/self/exe'//c_null_char, own, int(longest, c_size_t))
+    path = ''
+    do k = 1, int(length)
+      path = path//own(k)
+    end do
+    if (length < 1) then
+      call get_command_argument(0, text)
+      path = trim(text)
+    end if
+    dash = index(path(index(path, '/', back=.true.) + 1:), '-')
+    if (dash > 0) dash = dash + index(path, '/', back=.true.)
+    if (dash == 0) dash = len(path) + 1
+    path = path(:dash - 1)//'-'//ending//path(dash:)
+    n = command_argument_count()
+    allocate (word(longest + 1, 0:n), list(0:n + 1))
+    do k = 0, n
+      call get_command_argument(k, text)
+      if (k == 0) text = path
+      do i = 1, len_trim(text)
+        word(i, k) = text(i:i)
+      end do
+      word(len_trim(text) + 1, k) = c_null_char
+      list(k) = c_loc(word(1, k))
+    end do
+    list(n + 1) = c_null_ptr
+    ignored = c_execv(path//c_null_char, list)
+  end subroutine become_sibling
 
 end module base_system

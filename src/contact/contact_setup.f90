@@ -9,7 +9,7 @@ module contact_setup
   use contact_surface, only: make_surface, surface_t
   use contact_types, only: contact_t, pair_t, no_gap
   use contact_wall, only: make_wall, mark_wall_nodes
-  use model_data, only: model_t, segment_owner
+  use model_data, only: model_t, segment_owner, field_names
   implicit none
   private
   public :: make_contact, find_candidates, contact_nodes
@@ -47,14 +47,26 @@ contains
         pair%contactor_side = s
         pair%contactor = side(s)
         pair%obstacle = side(3 - s)
-        if (model%requests%ncforc > zero) call make_nodal(model, pair)
+        if (needs_nodal(model)) call make_nodal(model, pair)
       end associate
     end do
     do p = 1, size(model%wall)
       if (model%wall(p)%mu > zero) contact%d = 2
-      call make_wall(model, model%wall(p), contact%pair(size(model%contact) + p))
+      associate (pair => contact%pair(size(model%contact) + p))
+        call make_wall(model, model%wall(p), pair)
+        if (model%requests%field%on .and. needs_nodal(model)) call make_nodal(model, pair)
+      end associate
     end do
   end subroutine make_contact
+
+  !> Forces on nodes are kept where a table or a field asks for them.
+  pure logical function needs_nodal(model)
+    type(model_t), intent(in) :: model
+    needs_nodal = model%requests%ncforc > zero
+    if (model%requests%field%on) needs_nodal = needs_nodal .or. any(model%requests%field%wanted &
+        .and. (field_names == 'FORCE' .or. field_names == 'PRESSURE' .or. field_names == 'GAP' &
+        .or. field_names == 'STATUS'))
+  end function needs_nodal
 
   !> Work space of the forces on nodes.
   subroutine make_nodal(model, pair)

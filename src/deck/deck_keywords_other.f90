@@ -25,7 +25,6 @@ contains
     call skip(table, 'SET_SOLID_LIST', 'plane models have no solid elements')
     call skip(table, 'SET_BEAM', 'beams are left out')
     call skip(table, 'SET_BEAM_LIST', 'beams are left out')
-    call skip(table, 'DATABASE_BINARY_D3PLOT', 'field files are not available in this version')
     call skip(table, 'DATABASE_*', 'bipact has no such output')
     call add_control_contact(table)
     call add_control_timestep(table)

@@ -77,8 +77,42 @@ contains
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
     call add_field(table, 'REST', 'R10 fixed', 'restitution of velocity-level schemes')
     call add_keyword(table, 'BIPACT_STEP', '', class=keyword_refused)
-    call add_keyword(table, 'BIPACT_FIELD', '', class=keyword_refused)
-    call add_keyword(table, 'BIPACT_RESTART', '', class=keyword_refused)
+    call add_storage_keywords(table)
   end subroutine add_own_keywords
+
+  !> Field files and restart files.
+  subroutine add_storage_keywords(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'BIPACT_FIELD', 'field files (doc/output.md)', required=1, &
+        repeat_from=2, once=.true.)
+    call add_card(table)
+    call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
+    call add_field(table, 'PSID', 'I10 =0 >=0', 'part set; 0 = all parts')
+    call add_field(table, 'COMPR', 'I10 =0 >=0 <=9', 'compression; 0 = none')
+    call add_field(table, 'PREC', 'I10 =64 >=32 <=64', 'bits of a number: 64 or 32')
+    call add_field(table, 'TBEG', 'R10 =0.0 [T] >=0', 'first time')
+    call add_field(table, 'TEND', 'R10 [T] >=0', 'last time; blank = ENDTIM')
+    call add_card(table)
+    do k = 1, 8
+      call add_field(table, 'NAME'//achar(48 + k), 'W10 |U|V|FORCE|PRESSURE|GAP|STATUS'// &
+          '|STRESS|ENERGY|PRINCIPAL|PART|ALL|', 'a field; no card 2: U, V, STRESS')
+    end do
+    call add_keyword(table, 'BIPACT_RESTART', 'restart files', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'NSTEP', 'I10 =0 >=0', 'every so many steps; 0 = not so')
+    call add_field(table, 'WALL', 'R10 =0.0 >=0', 'every so many seconds of the clock')
+    call add_field(table, 'KEEP', 'I10 =2 >0', 'files that are kept')
+    call add_field(table, 'ONSIG', 'I10 =1 >=0 <=1', &
+        '1 = on SIGTERM and SIGINT before the run stops, and on SIGUSR1')
+    call add_keyword(table, 'DATABASE_BINARY_D3PLOT', 'as *BIPACT_FIELD with DT and PSETID', &
+        required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
+    call add_field(table, 'LCDT', 'I10 fixed', 'a curve of intervals')
+    call add_field(table, 'BEAM', 'I10 ignored')
+    call add_field(table, 'NPLTC', 'I10 fixed', 'a number of frames')
+    call add_field(table, 'PSETID', 'I10 =0 >=0', 'part set; 0 = all parts')
+  end subroutine add_storage_keywords
 
 end module deck_keywords_own

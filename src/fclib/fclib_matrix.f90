@@ -4,7 +4,7 @@ module fclib_matrix
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_deck
-  use fclib_file, only: file_t, read_integers, read_reals
+  use hdf5_file, only: file_t, read_integers, read_reals
   implicit none
   private
   public :: read_matrix, transposed, complete_half, from_triplets

@@ -7,7 +7,7 @@ module fclib_problem
   use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: to_text
   use cone_blocks, only: flexibility_t, blocks_from_rows, blocks_from_dense
-  use fclib_file, only: file_t, open_file, create_file, close_file, has_path, read_integers, &
+  use hdf5_file, only: file_t, open_file, create_file, close_file, has_path, read_integers, &
       read_reals, make_group, write_integers, write_reals
   use fclib_matrix, only: matrix_t, read_matrix, transposed, complete_half, from_triplets
   use fclib_text, only: is_text_problem, read_text_problem

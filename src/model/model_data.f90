@@ -99,6 +99,30 @@ module model_data
     integer :: record = 0
   end type wall_t
 
+  !> Fields that a file of frames may hold.
+  character(9), parameter, public :: field_names(10) = [character(9) :: 'U', 'V', 'FORCE', &
+      'PRESSURE', 'GAP', 'STATUS', 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART']
+
+  !> Field files: which fields, when, of which parts.
+  type, public :: field_request_t
+    logical :: on = .false.
+    real(wp) :: interval = 0.0_wp       !< [T]
+    integer :: part_set = 0             !< row; 0 = all parts
+    integer :: compression = 0
+    logical :: single = .false.
+    real(wp) :: begin = 0.0_wp, end = huge(1.0_wp)
+    logical :: wanted(size(field_names)) = .false.
+  end type field_request_t
+
+  !> Restart files: when, how many are kept.
+  type, public :: restart_request_t
+    logical :: on = .false.
+    integer :: steps = 0                !< every so many; 0 = not so
+    real(wp) :: wall = 0.0_wp           !< every so many seconds of the clock; 0 = not so
+    integer :: keep = 2
+    logical :: on_signal = .true.
+  end type restart_request_t
+
   !> Which tables are asked for, and how often; 0 = off [T].
   type, public :: requests_t
     real(wp) :: glstat = 0.0_wp
@@ -113,6 +137,8 @@ module model_data
     real(wp) :: timing = 0.0_wp
     integer, allocatable :: history_node(:)
     integer, allocatable :: history_element(:)
+    type(field_request_t) :: field
+    type(restart_request_t) :: restart
   end type requests_t
 
   type, public :: controls_t

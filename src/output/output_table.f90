@@ -2,8 +2,9 @@
 !> A table: header, rows of constant width, a closing line. Rows are collected and written many
 !> at a time, always whole.
 module output_table
+  use base_files, only: file_size, cut_file
   use base_format, only: real_writer_t, real_width, put_real, put_integer
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, i8
   use base_status, only: status_t, fail, status_file
   use base_strings, only: join_path, to_text
   use base_version, only: version
@@ -18,11 +19,13 @@ module output_table
     real(wp) :: next = zero       !< rows are due from next*interval on (a whole number)
     integer :: unit = -1
     integer :: filled = 0
+    integer(i8) :: written = 0_i8 !< bytes on file
     character(:), allocatable :: path
     character(:), allocatable :: buffer
   end type table_file_t
 
-  public :: open_table, row_is_due, begin_row, add_number, add_count, end_row, close_table
+  public :: open_table, row_is_due, begin_row, add_number, add_count, end_row, &
+      close_table, write_out, reopen_table
 
 contains
 
@@ -53,6 +56,33 @@ contains
     call add_line(table, '# bipact '//version//'; units as in the deck')
     call add_line(table, '# '//columns)
   end subroutine open_table
+
+  !> Opens a table of which the first table%written bytes are kept, to add rows to them.
+  subroutine reopen_table(table, folder, name, interval, status)
+    type(table_file_t), intent(inout) :: table
+    character(*), intent(in) :: folder, name
+    real(wp), intent(in) :: interval
+    type(status_t), intent(inout) :: status
+    character(200) :: reason
+    integer :: ios
+    table%on = interval > zero
+    table%interval = interval
+    table%path = join_path(folder, name//'.tab')
+    if (.not. table%on) return
+    if (file_size(table%path) < table%written) then
+      call fail(status, status_file, 'cannot go on with "'//table%path//'": it has lost rows '// &
+          'that it had when the restart file was written')
+      table%on = .false.
+      return
+    end if
+    call cut_file(table%path, table%written, status)
+    allocate (character(buffer_size) :: table%buffer)
+    open (newunit=table%unit, file=table%path, access='stream', form='unformatted', &
+        status='old', position='append', action='write', iostat=ios, iomsg=reason)
+    if (ios == 0) return
+    call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))
+    table%on = .false.
+  end subroutine reopen_table
 
   !> A table of an earlier run must not pass for one of this run.
   subroutine remove_old(path)
@@ -124,6 +154,7 @@ contains
     call end_row(table)
   end subroutine add_line
 
+  !> Writes the rows that are held.
   subroutine write_out(table, status)
     type(table_file_t), intent(inout) :: table
     type(status_t), intent(inout) :: status
@@ -131,6 +162,7 @@ contains
     integer :: ios
     write (table%unit, iostat=ios, iomsg=reason) table%buffer(1:table%filled)
     if (ios == 0) flush (table%unit, iostat=ios, iomsg=reason)
+    table%written = table%written + table%filled
     table%filled = 0
     if (ios /= 0) &
         call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))

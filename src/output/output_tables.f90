@@ -1,11 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The set of tables of a run: which are on, their columns (doc/output.md), when rows are due.
 module output_tables
+  use base_archive, only: archive_t
   use base_format, only: real_writer_t, make_real_writer
-  use base_kinds, only: wp
+  use base_kinds, only: wp, i8
   use base_status, only: status_t
   use model_data, only: model_t
-  use output_table, only: table_file_t, open_table, row_is_due, add_number, close_table
+  use output_table, only: table_file_t, open_table, row_is_due, add_number, close_table, &
+      reopen_table, write_out
   implicit none
   private
   integer, parameter, public :: table_glstat = 1, table_matsum = 2, table_nodout = 3, &
@@ -19,16 +21,17 @@ module output_tables
     logical :: any_on = .false.
   end type tables_t
 
+  public :: flush_tables, exchange_tables
   public :: open_tables, any_due, energies_due, close_tables, add_numbers
 
 contains
 
-  !> Opens the tables that the deck asks for.
-  subroutine open_tables(tables, model, folder, has_acceleration, status)
+  !> Opens the tables that the deck asks for; again: keeps the rows of the run that goes on.
+  subroutine open_tables(tables, model, folder, has_acceleration, again, status)
     type(tables_t), intent(inout) :: tables
     type(model_t), intent(in) :: model
     character(*), intent(in) :: folder
-    logical, intent(in) :: has_acceleration
+    logical, intent(in) :: has_acceleration, again
     type(status_t), intent(inout) :: status
     character(:), allocatable :: more
     more = ''
@@ -67,10 +70,35 @@ contains
       integer, intent(in) :: k
       character(*), intent(in) :: name, columns
       real(wp), intent(in) :: interval
-      call open_table(tables%file(k), folder, name, interval, model%title, columns, status)
+      if (again) call reopen_table(tables%file(k), folder, name, interval, status)
+      if (.not. again) call open_table(tables%file(k), folder, name, interval, model%title, &
+          columns, status)
     end subroutine open_one
 
   end subroutine open_tables
+
+  !> Brings all rows to the files.
+  subroutine flush_tables(tables, status)
+    type(tables_t), intent(inout) :: tables
+    type(status_t), intent(inout) :: status
+    integer :: k
+    do k = 1, size(tables%file)
+      if (tables%file(k)%on) call write_out(tables%file(k), status)
+    end do
+  end subroutine flush_tables
+
+  !> Saves to or restores from the archive: when rows are due, and the bytes of each file.
+  subroutine exchange_tables(archive, tables)
+    type(archive_t), intent(inout) :: archive
+    type(tables_t), intent(inout) :: tables
+    real(wp) :: next(table_count), written(table_count)
+    next = tables%file%next
+    written = real(tables%file%written, wp)
+    call archive%exchange('tables.next', next)
+    call archive%exchange('tables.bytes', written)
+    tables%file%next = next
+    tables%file%written = nint(written, i8)
+  end subroutine exchange_tables
 
   !> True when any table wants a row at this time.
   logical function any_due(tables, time, h)

@@ -9,6 +9,7 @@ module run_arguments
   type, public :: arguments_t
     character(:), allocatable :: deck
     character(:), allocatable :: folder
+    character(:), allocatable :: restart     !< a file, or "latest"
     type(override_t), allocatable :: override(:)
     logical :: check = .false., plan = .false., quiet = .false.
     logical :: keywords = .false., help = .false., version = .false.
@@ -29,12 +30,14 @@ contains
     do while (k <= command_argument_count() .and. .not. failed(status))
       word = argument(k)
       select case (word)
-      case ('-o', '-D')
+      case ('-o', '-D', '--restart')
         k = k + 1
         if (k > command_argument_count()) then
           call fail(status, status_file, word//' needs a value', hint='bipact --help')
         else if (word == '-o') then
           arguments%folder = argument(k)
+        else if (word == '--restart') then
+          arguments%restart = argument(k)
         else
           call add_override(arguments, argument(k), status)
         end if

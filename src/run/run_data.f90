@@ -3,7 +3,7 @@
 !> through it (run_loop) and tell of it (run_report).
 module run_data
   use assembly_system, only: system_t
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, i8
   use base_timers, only: timers_t
   use contact_types, only: contact_t
   use cone_types, only: cone_options_t
@@ -12,6 +12,8 @@ module run_data
   use linalg_solver, only: solver_t, solver_options_t
   use model_data, only: model_t
   use model_state, only: state_t
+  use output_fields, only: fields_t
+  use output_storage, only: storage_t, mesh_t
   use output_tables, only: tables_t
   use time_base, only: scheme_t
   use time_ledger, only: ledger_t
@@ -35,6 +37,8 @@ module run_data
     logical :: ledger = .false.
     logical :: refinement = .false.
     logical :: dump = .false.        !< of contact problems
+    logical :: fields = .false.      !< files of frames
+    logical :: restarts = .false.    !< files to go on from
     integer :: full_steps = 0
     real(wp) :: last_step = zero     !< length of a cut last step; 0 = none [T]
   end type plan_t
@@ -71,6 +75,13 @@ module run_data
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
     logical :: broken = .false.        !< NaN or infinity: the state is not written
+    class(storage_t), allocatable :: storage  !< what can keep fields and restarts
+    type(fields_t), allocatable :: fields     !< only with field files
+    type(mesh_t), allocatable :: mesh
+    character(16) :: deck_hash = ''           !< only with restart files
+    integer(i8) :: restart_tick = 0_i8        !< clock at the last restart file
+    integer :: restart_files = 0
+    character(:), allocatable :: restarted    !< from where, empty: from the start
     character(:), allocatable :: folder
     logical :: quiet = .false.
     integer :: log_unit = -1

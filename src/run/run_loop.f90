@@ -18,8 +18,10 @@ module run_loop
   use output_contact, only: write_contact_problem
   use output_tables, only: any_due, energies_due
   use run_data, only: run_t
+  use run_frames, only: keep_frame
   use run_motion, only: activate_motions, impose_motions, restore_motions, find_reactions
   use run_progress, only: progress_t, show_progress, clear_progress
+  use run_restart, only: keep_restart
   use run_setup, only: factor_matrix
   use run_tables, only: write_rows
   use time_ledger, only: evaluate_ledger
@@ -35,14 +37,18 @@ contains
     type(status_t), intent(inout) :: status
     type(progress_t) :: progress
     integer :: steps
+    logical :: stopped
     steps = run%plan%full_steps
     if (run%plan%last_step > zero) steps = steps + 1
-    call tell(run, .false., status)
+    if (.not. allocated(run%restarted)) call tell(run, .false., status)
     do while (run%state%cycle < steps .and. .not. failed(status))
       if (run%state%cycle == run%plan%full_steps) call cut_step(run, status)
       call advance(run, status)
       call tell(run, run%state%cycle == steps .or. failed(status), status)
-      if (stop_asked()) call fail(status, status_stopped, 'stopped by a signal')
+      stopped = stop_asked()
+      if (run%plan%restarts) &
+          call keep_restart(run, run%state%cycle == steps, stopped, status)
+      if (stopped) call fail(status, status_stopped, 'stopped by a signal')
       call show_progress(progress, run%quiet, run%state%cycle, steps, run%state%time)
     end do
     call clear_progress(progress)
@@ -324,6 +330,7 @@ contains
         energies = energies .or. mod(run%state%cycle, run%model%controls%ledger_every) == 0
     if (energies .and. .not. run%broken) call watch(run, status)
     if (run%broken) return
+    if (run%plan%fields) call keep_frame(run, last, status)
     if (.not. (run%tables%any_on .and. last)) then
       if (.not. any_due(run%tables, run%state%time, h)) return
     end if

@@ -10,7 +10,7 @@ module run_motion
   use run_data, only: run_t
   implicit none
   private
-  public :: activate_motions, impose_motions, restore_motions, start_reactions, find_reactions
+  public :: activate_motions, hold_active, impose_motions, restore_motions, start_reactions, find_reactions
 
 contains
 
@@ -28,14 +28,20 @@ contains
       if (active .neqv. run%active_motion(k)) changed = .true.
       run%active_motion(k) = active
     end do
-    if (.not. changed) return
+    if (changed) call hold_active(run)
+  end subroutine activate_motions
+
+  !> The held dofs: supports, and the motions that act.
+  subroutine hold_active(run)
+    type(run_t), intent(inout) :: run
+    integer :: k
     run%system%fixed = run%model%fixed
     do k = 1, size(run%model%motion)
       if (run%active_motion(k)) &
           run%system%fixed(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
     end do
     call list_fixed(run%system)
-  end subroutine activate_motions
+  end subroutine hold_active
 
   pure logical function acts(motion, t1, h)
     type(motion_t), intent(in) :: motion

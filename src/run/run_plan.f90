@@ -32,6 +32,7 @@ contains
     call add_feature(plan, 'kinematics', .false., &
         'small displacements: one stiffness, factored once')
     call plan_tables(model, plan)
+    call plan_storage(model, plan)
   end subroutine make_plan
 
   !> Number of steps; an end time that is no whole number of steps cuts the last one.
@@ -100,6 +101,24 @@ contains
       end if
     end associate
   end subroutine plan_tables
+
+  subroutine plan_storage(model, plan)
+    type(model_t), intent(in) :: model
+    type(plan_t), intent(inout) :: plan
+    associate (f => model%requests%field, r => model%requests%restart)
+      plan%fields = f%on
+      plan%restarts = r%on
+      call add_feature(plan, 'fields', f%on, to_text(count(f%wanted))//' fields, every '// &
+          to_text(f%interval))
+      if (.not. r%on) then
+        call add_feature(plan, 'restarts', .false., 'no *BIPACT_RESTART')
+      else
+        call add_feature(plan, 'restarts', .true., 'every '//to_text(r%steps)//' steps, '// &
+            to_text(r%wall)//' s of the clock (0 = not so)'// &
+            trim(merge(', on signals', '            ', r%on_signal)))
+      end if
+    end associate
+  end subroutine plan_storage
 
   !> Adds a line to the plan.
   subroutine add_feature(plan, name, on, reason)

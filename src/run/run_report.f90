@@ -32,6 +32,9 @@ contains
     write (run%log_unit, '(a)') 'title: '//trim(run%model%title)
     write (run%log_unit, '(a)') 'deck:  '//run%deck%file(1)%path
     call write_plan(run, run%log_unit)
+    if (allocated(run%restarted)) write (run%log_unit, '(a)') 'restarted from '// &
+        run%restarted//', step '//to_text(run%state%cycle)//', time '// &
+        to_text(run%state%time)
     write (run%log_unit, '(a)') 'solver '//run%solver%info%engine//', order '// &
         run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)// &
         ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications'
@@ -132,6 +135,10 @@ contains
           to_text(c%worst_penetration)//', certificate '// &
           trim(merge('met    ', 'not met', c%worst%met))
     end associate
+    if (run%plan%fields) write (unit, '(a)') 'frames '//to_text(run%fields%frames)// &
+        ' in '//to_text(run%fields%segment)//' field files'
+    if (run%plan%restarts) write (unit, '(a)') 'restart files written '// &
+        to_text(run%restart_files)
     write (unit, '(a)') 'peak memory '//peak_memory()
     write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
         to_text(run%deck%problems%warning_count)

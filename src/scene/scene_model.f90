@@ -15,6 +15,7 @@ module scene_model
   use scene_mesh, only: read_nodes, read_elements, check_mesh
   use scene_motion, only: read_supports, read_motions, read_initial_velocities
   use scene_output, only: read_requests
+  use scene_storage, only: read_storage
   use scene_parts, only: read_materials, read_parts
   use scene_sets, only: read_sets
   implicit none
@@ -51,6 +52,7 @@ contains
       call read_contacts(deck, model, maps)
       call read_walls(deck, model, maps)
       call read_requests(deck, model, maps)
+      call read_storage(deck, model, maps)
     end if
     if (deck%problems%count > 0) call fail(status, status_deck, problem_count(deck)// &
         ' in the deck; nothing was computed')

@@ -1,18 +1,19 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Reading and writing plain arrays of an HDF5 file by path; failures say which path.
-module fclib_file
+module hdf5_file
   use base_kinds, only: wp
   use base_status, only: status_t, fail, failed, status_deck, status_file
   use base_strings, only: to_text
-  use hdf5, only: hid_t, hsize_t, h5open_f, h5close_f, h5fopen_f, h5fcreate_f, h5fclose_f, &
+  use hdf5, only: hid_t, hsize_t, h5open_f, h5fopen_f, h5fcreate_f, h5fclose_f, &
       h5f_acc_rdonly_f, h5f_acc_trunc_f, h5eset_auto_f, h5lexists_f, h5dopen_f, h5dclose_f, &
       h5dget_space_f, h5sget_simple_extent_npoints_f, h5sclose_f, h5dread_f, h5dwrite_f, &
       h5dcreate_f, h5screate_simple_f, h5gcreate_f, h5gclose_f, h5t_native_integer, &
-      h5t_native_double
+      h5t_native_double, h5pcreate_f, h5pclose_f, h5pset_userblock_f, h5p_file_create_f, &
+      h5gn_members_f, h5gget_obj_info_idx_f
   implicit none
   private
   public :: open_file, create_file, close_file, has_path, read_integers, read_reals, &
-      make_group, write_integers, write_reals
+      make_group, write_integers, write_reals, list_members
 
   type, public :: file_t
     integer(hid_t) :: id = -1
@@ -40,16 +41,23 @@ contains
         '": it is no HDF5 file, or a part of one')
   end subroutine open_file
 
-  !> Creates an HDF5 file; one of that name is replaced.
-  subroutine create_file(name, file, status)
+  !> Creates an HDF5 file; one of that name is replaced. The library leaves the first `free` bytes
+  !> (0, or 512 and more) to the program.
+  subroutine create_file(name, file, status, free)
     character(*), intent(in) :: name
     type(file_t), intent(out) :: file
     type(status_t), intent(inout) :: status
+    integer, intent(in), optional :: free
+    integer(hid_t) :: creation
     integer :: error
     call start_library()
     file%name = name
-    call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error)
-    if (error < 0) call fail(status, status_file, 'cannot write "'//name//'"')
+    call h5pcreate_f(h5p_file_create_f, creation, error)
+    if (present(free)) call h5pset_userblock_f(creation, int(free, hsize_t), error)
+    call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error, creation)
+    if (error < 0) call fail(status, status_file, 'cannot write "'//name//'"', &
+        hint='is the folder there and writable?')
+    call h5pclose_f(creation, error)
   end subroutine create_file
 
   subroutine start_library()
@@ -58,14 +66,33 @@ contains
     call h5eset_auto_f(0, error)
   end subroutine start_library
 
-  !> Closes the file and the library.
-  subroutine close_file(file)
+  !> Closes the file. What the library could not bring to it is a failure, where a status is
+  !> given.
+  subroutine close_file(file, status)
     type(file_t), intent(inout) :: file
+    type(status_t), intent(inout), optional :: status
     integer :: error
+    error = 0
     if (file%id >= 0) call h5fclose_f(file%id, error)
+    if (error < 0 .and. present(status)) call fail(status, status_file, 'cannot write "'// &
+        file%name//'" to its end', hint='is the disk full or gone?')
     file%id = -1
-    call h5close_f(error)
   end subroutine close_file
+
+  !> Names of what a group holds, in increasing order.
+  subroutine list_members(file, group, names)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: group
+    character(64), allocatable, intent(out) :: names(:)
+    integer :: n, k, kind, error
+    call h5gn_members_f(file%id, group, n, error)
+    if (error < 0) n = 0
+    allocate (names(n))
+    do k = 1, n
+      names(k) = ''
+      call h5gget_obj_info_idx_f(file%id, group, k - 1, names(k), kind, error)
+    end do
+  end subroutine list_members
 
   !> Is there something of this path, each part of it?
   logical function has_path(file, path)
@@ -91,6 +118,7 @@ contains
     type(status_t), intent(inout) :: status
     integer(hid_t) :: space
     integer :: error
+    space = -1
     n = 0
     set = -1
     if (.not. has_path(file, path)) then
@@ -99,7 +127,9 @@ contains
     end if
     call h5dopen_f(file%id, path, set, error)
     if (error >= 0) call h5dget_space_f(set, space, error)
+    ! An empty set is no fault, though the library says so.
     if (error >= 0) call h5sget_simple_extent_npoints_f(space, n, error)
+    if (n == 0 .and. space >= 0) error = 0
     if (error < 0) then
       call fail(status, status_deck, file%name//': '//path//' is no array of numbers')
       return
@@ -210,4 +240,4 @@ contains
     call h5sclose_f(space, error)
   end subroutine write_integers
 
-end module fclib_file
+end module hdf5_file

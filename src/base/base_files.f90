@@ -1,0 +1,151 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Files as a whole: names in a folder, sizes, renaming, removal, flushing to the disk.
+module base_files
+  use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, c_null_ptr, &
+      c_size_t, c_long, c_f_pointer, c_associated
+  use base_kinds, only: i8
+  use base_status, only: status_t, fail, status_file
+  implicit none
+  private
+  public :: file_exists, file_size, move_file, remove_file, cut_file, sync_file, list_files
+
+  !> Long enough for every name that list_files gives.
+  integer, parameter, public :: path_length = 4096
+
+  !> glob_t of the C library begins so (POSIX); the rest is room for what it keeps for itself.
+  type, bind(c) :: glob_t
+    integer(c_size_t) :: paths = 0_c_size_t
+    type(c_ptr) :: path = c_null_ptr
+    integer(c_size_t) :: rest(16) = 0_c_size_t
+  end type glob_t
+
+  interface
+    integer(c_int) function c_rename(old, new) bind(c, name='rename')
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: old(*), new(*)
+    end function c_rename
+    integer(c_int) function c_unlink(path) bind(c, name='unlink')
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: path(*)
+    end function c_unlink
+    integer(c_int) function c_truncate(path, length) bind(c, name='truncate')
+      import :: c_int, c_char, c_long
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_long), value, intent(in) :: length
+    end function c_truncate
+    integer(c_int) function c_open(path, flags) bind(c, name='open')
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value, intent(in) :: flags
+    end function c_open
+    integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
+      import :: c_int
+      integer(c_int), value, intent(in) :: descriptor
+    end function c_fsync
+    integer(c_int) function c_close(descriptor) bind(c, name='close')
+      import :: c_int
+      integer(c_int), value, intent(in) :: descriptor
+    end function c_close
+    integer(c_int) function c_glob(pattern, flags, on_error, result) bind(c, name='glob')
+      import :: c_int, c_char, c_ptr, glob_t
+      character(kind=c_char), intent(in) :: pattern(*)
+      integer(c_int), value, intent(in) :: flags
+      type(c_ptr), value, intent(in) :: on_error
+      type(glob_t), intent(inout) :: result
+    end function c_glob
+    subroutine c_globfree(result) bind(c, name='globfree')
+      import :: glob_t
+      type(glob_t), intent(inout) :: result
+    end subroutine c_globfree
+    integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
+      import :: c_size_t, c_ptr
+      type(c_ptr), value, intent(in) :: text
+    end function c_strlen
+  end interface
+
+contains
+
+  logical function file_exists(path)
+    character(*), intent(in) :: path
+    inquire (file=path, exist=file_exists)
+  end function file_exists
+
+  !> Bytes of a file, -1 where there is none.
+  integer(i8) function file_size(path)
+    character(*), intent(in) :: path
+    file_size = -1_i8
+    if (file_exists(path)) inquire (file=path, size=file_size)
+  end function file_size
+
+  !> Renames within a file system, in one stroke: who looks sees the old file or the new one.
+  subroutine move_file(old, new, status)
+    character(*), intent(in) :: old, new
+    type(status_t), intent(inout) :: status
+    if (c_rename(old//c_null_char, new//c_null_char) /= 0_c_int) call fail(status, &
+        status_file, 'cannot rename "'//old//'" to "'//new//'"', hint='is the folder writable?')
+  end subroutine move_file
+
+  !> Removes a file, if there is one.
+  subroutine remove_file(path)
+    character(*), intent(in) :: path
+    integer(c_int) :: ignored
+    ignored = c_unlink(path//c_null_char)
+  end subroutine remove_file
+
+  !> Keeps the first bytes of a file.
+  subroutine cut_file(path, bytes, status)
+    character(*), intent(in) :: path
+    integer(i8), intent(in) :: bytes
+    type(status_t), intent(inout) :: status
+    if (c_truncate(path//c_null_char, int(bytes, c_long)) /= 0_c_int) &
+        call fail(status, status_file, 'cannot shorten "'//path//'"')
+  end subroutine cut_file
+
+  !> Has the system bring a file, or the names of a folder, to the disk.
+  subroutine sync_file(path, status)
+    character(*), intent(in) :: path
+    type(status_t), intent(inout) :: status
+    integer(c_int) :: descriptor, error, ignored
+    descriptor = c_open(path//c_null_char, 0_c_int)
+    error = -1_c_int
+    if (descriptor >= 0_c_int) error = c_fsync(descriptor)
+    if (descriptor >= 0_c_int) ignored = c_close(descriptor)
+    if (error /= 0_c_int) call fail(status, status_file, '"'//path//'" was not brought to the'// &
+        ' disk', hint='is the disk full or gone?')
+  end subroutine sync_file
+
+  !> Paths in a folder whose names fit a pattern with * (in increasing order).
+  subroutine list_files(folder, pattern, paths)
+    character(*), intent(in) :: folder, pattern
+    character(path_length), allocatable, intent(out) :: paths(:)
+    type(glob_t) :: found
+    type(c_ptr), pointer :: list(:)
+    character(kind=c_char), pointer :: text(:)
+    integer :: k, i
+    if (c_glob(escaped(folder)//'/'//pattern//c_null_char, 0_c_int, c_null_ptr, found) &
+        /= 0_c_int) found%paths = 0_c_size_t
+    allocate (paths(found%paths))
+    if (found%paths > 0_c_size_t) call c_f_pointer(found%path, list, [found%paths])
+    do k = 1, size(paths)
+      paths(k) = ''
+      call c_f_pointer(list(k), text, [c_strlen(list(k))])
+      do i = 1, min(path_length, size(text))
+        paths(k)(i:i) = text(i)
+      end do
+    end do
+    if (c_associated(found%path)) call c_globfree(found)
+  end subroutine list_files
+
+  !> A path in which no character stands for others.
+  pure function escaped(path) result(text)
+    character(*), intent(in) :: path
+    character(:), allocatable :: text
+    integer :: k
+    text = ''
+    do k = 1, len(path)
+      if (scan(path(k:k), '*?[]\') > 0) text = text//'\'
+      text = text//path(k:k)
+    end do
+  end function escaped
+
+end module base_files

@@ -1,0 +1,287 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The fields of a frame: which nodes and elements, and their values from the state of the run.
+module output_fields
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use assembly_forces, only: element_product
+  use assembly_system, only: system_t
+  use base_kinds, only: wp, zero, half
+  use contact_types, only: contact_t, no_gap
+  use element_base, only: element_t
+  use element_registry, only: make_element
+  use model_data, only: model_t, corner_count, field_names
+  use model_state, only: state_t
+  use output_storage, only: mesh_t, field_t
+  implicit none
+  private
+  public :: make_fields, make_mesh, fill_fields, frame_is_due, next_frame
+
+  type, public :: fields_t
+    integer, allocatable :: node(:), cell(:)   !< rows of the model
+    type(field_t), allocatable :: field(:)
+    !> (4, 8, cells): sxx, syy, szz, sxy by the displacements of the corners [F/L3]; only where
+    !> stress is asked for
+    real(wp), allocatable :: stress_of(:, :, :)
+    real(wp), allocatable :: stress(:, :)      !< (4, cells) of the frame [F/L2]
+    real(wp) :: next = zero                    !< a frame is due from next*interval on
+    integer :: segment = 0                     !< number of the file that is open or comes next
+    integer :: frames = 0
+    real(wp), allocatable :: time(:)           !< of all frames so far
+    integer, allocatable :: segment_of(:)      !< of each frame
+  end type fields_t
+
+contains
+
+  !> Nodes, elements and work space for what the deck asks for.
+  subroutine make_fields(model, fields)
+    type(model_t), intent(in) :: model
+    type(fields_t), intent(out) :: fields
+    integer :: k, n
+    call choose_cells(model, fields)
+    associate (wanted => model%requests%field%wanted)
+      n = count(wanted)
+      allocate (fields%field(n), fields%time(64), fields%segment_of(64))
+      n = 0
+      do k = 1, size(field_names)
+        if (.not. wanted(k)) cycle
+        n = n + 1
+        call shape_field(field_names(k), size(fields%node), size(fields%cell), fields%field(n))
+        if (field_names(k) == 'PART') fields%field(n)%values(1, :) = &
+            real(model%part(model%element_part(fields%cell))%id, wp)
+        if (field_names(k) == 'STRESS' .or. field_names(k) == 'PRINCIPAL') &
+            call make_stress(model, fields)
+      end do
+    end associate
+  end subroutine make_fields
+
+  pure subroutine choose_cells(model, fields)
+    type(model_t), intent(in) :: model
+    type(fields_t), intent(inout) :: fields
+    logical, allocatable :: part(:), node(:), cell(:)
+    integer :: e, k
+    allocate (part(size(model%part)), node(model%nodes), cell(model%elements))
+    part = model%requests%field%part_set == 0
+    if (model%requests%field%part_set > 0) &
+        part(model%part_set(model%requests%field%part_set)%member) = .true.
+    node = .false.
+    do e = 1, model%elements
+      cell(e) = part(model%element_part(e))
+      if (cell(e)) node(model%connectivity(:, e)) = .true.
+    end do
+    fields%node = pack([(k, k=1, model%nodes)], node)
+    fields%cell = pack([(k, k=1, model%elements)], cell)
+  end subroutine choose_cells
+
+  pure subroutine shape_field(name, nodes, cells, field)
+    character(*), intent(in) :: name
+    integer, intent(in) :: nodes, cells
+    type(field_t), intent(inout) :: field
+    integer :: components
+    field%name = name
+    components = 1
+    select case (name)
+    case ('U', 'V', 'FORCE', 'PRINCIPAL')
+      components = 3
+    case ('STRESS')
+      components = 6
+    end select
+    field%at_nodes = all(name /= [character(9) :: 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART'])
+    field%whole = name == 'STATUS' .or. name == 'PART'
+    field%constant = name == 'PART'
+    allocate (field%values(components, merge(nodes, cells, field%at_nodes)))
+    field%values = zero
+  end subroutine shape_field
+
+  !> Stress of each element by unit displacements of its corners.
+  subroutine make_stress(model, fields)
+    type(model_t), intent(in) :: model
+    type(fields_t), intent(inout) :: fields
+    class(element_t), allocatable :: element
+    real(wp) :: u(2, 4), stress(3)
+    integer :: k, e, n, c
+    if (allocated(fields%stress_of)) return
+    allocate (fields%stress_of(4, 8, size(fields%cell)), fields%stress(4, size(fields%cell)))
+    fields%stress_of = zero
+    do k = 1, size(fields%cell)
+      e = fields%cell(k)
+      n = corner_count(model%connectivity(:, e))
+      call make_element(n, element)
+      associate (part => model%part(model%element_part(e)), &
+          corner => model%connectivity(1:n, e))
+        associate (material => model%material(part%material)%item)
+          do c = 1, 2*n
+            u = zero
+            u(2 - mod(c, 2), (c + 1)/2) = 1.0_wp
+            stress = matmul(material%moduli(part%plane), &
+                element%mean_strain(model%x(:, corner), u(:, 1:n)))
+            fields%stress_of(:, c, k) = [stress(1), stress(2), &
+                material%stress_across(part%plane, stress), stress(3)]
+          end do
+        end associate
+      end associate
+      deallocate (element)
+    end do
+  end subroutine make_stress
+
+  !> The mesh in the terms of VTK, nodes numbered among those of the fields.
+  pure subroutine make_mesh(model, fields, mesh)
+    type(model_t), intent(in) :: model
+    type(fields_t), intent(in) :: fields
+    type(mesh_t), intent(out) :: mesh
+    integer, allocatable :: number(:)
+    integer :: k, n, at
+    allocate (number(model%nodes), mesh%points(3, size(fields%node)))
+    allocate (mesh%kind(size(fields%cell)), mesh%offsets(size(fields%cell) + 1))
+    allocate (mesh%connectivity(4*size(fields%cell)))
+    number(fields%node) = [(k - 1, k=1, size(fields%node))]
+    mesh%points = zero
+    mesh%points(1:2, :) = model%x(:, fields%node)
+    at = 0
+    mesh%offsets(1) = 0
+    do k = 1, size(fields%cell)
+      n = corner_count(model%connectivity(:, fields%cell(k)))
+      mesh%connectivity(at + 1:at + n) = number(model%connectivity(1:n, fields%cell(k)))
+      mesh%kind(k) = merge(9, 5, n == 4)
+      at = at + n
+      mesh%offsets(k + 1) = at
+    end do
+    mesh%connectivity = mesh%connectivity(:at)
+  end subroutine make_mesh
+
+  !> True when a frame is due: as rows of tables, between TBEG and TEND.
+  pure logical function frame_is_due(model, fields, time, h, last)
+    type(model_t), intent(in) :: model
+    type(fields_t), intent(in) :: fields
+    real(wp), intent(in) :: time, h
+    logical, intent(in) :: last
+    real(wp), parameter :: slack = 1.0e-9_wp
+    associate (r => model%requests%field)
+      frame_is_due = last .or. time >= fields%next*r%interval - slack*h
+      frame_is_due = frame_is_due .and. time >= r%begin - slack*h .and. time <= r%end + slack*h
+    end associate
+  end function frame_is_due
+
+  !> Notes the frame at a time, and when the next is due.
+  pure subroutine next_frame(model, time, h, fields)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: time, h
+    type(fields_t), intent(inout) :: fields
+    if (fields%frames == size(fields%time)) then
+      fields%time = [fields%time, fields%time]
+      fields%segment_of = [fields%segment_of, fields%segment_of]
+    end if
+    fields%frames = fields%frames + 1
+    fields%time(fields%frames) = time
+    fields%segment_of(fields%frames) = fields%segment
+    associate (interval => model%requests%field%interval)
+      fields%next = zero
+      if (interval > 1.0e-6_wp*h) fields%next = aint((time + 1.0e-9_wp*h)/interval) + 1.0_wp
+    end associate
+  end subroutine next_frame
+
+  !> Values of all fields for the state as it is.
+  subroutine fill_fields(model, system, state, contact, fields)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    type(contact_t), intent(in) :: contact
+    type(fields_t), intent(inout) :: fields
+    integer :: k, i
+    if (allocated(fields%stress_of)) call find_stress(model, state, fields)
+    do k = 1, size(fields%field)
+      associate (values => fields%field(k)%values)
+        select case (fields%field(k)%name)
+        case ('U')
+          values(1:2, :) = state%u(:, fields%node)
+        case ('V')
+          if (state%cycle == 0) values(1:2, :) = state%v(:, fields%node)
+          if (state%cycle > 0) values(1:2, :) = state%du(:, fields%node)/state%h_last
+        case ('FORCE', 'PRESSURE', 'GAP', 'STATUS')
+          call fill_contact(contact, model%nodes, fields%node, fields%field(k))
+        case ('STRESS')
+          values([1, 2, 3, 4], :) = fields%stress
+        case ('PRINCIPAL')
+          call fill_principal(fields%stress, values)
+        case ('ENERGY')
+          do i = 1, size(fields%cell)
+            values(1, i) = half*element_product(system, fields%cell(i), state%u)
+          end do
+        end select
+      end associate
+    end do
+  end subroutine fill_fields
+
+  pure subroutine find_stress(model, state, fields)
+    type(model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    type(fields_t), intent(inout) :: fields
+    integer :: k, c, node
+    do k = 1, size(fields%cell)
+      fields%stress(:, k) = zero
+      do c = 1, corner_count(model%connectivity(:, fields%cell(k)))
+        node = model%connectivity(c, fields%cell(k))
+        fields%stress(:, k) = fields%stress(:, k) &
+            + fields%stress_of(:, 2*c - 1, k)*state%u(1, node) &
+            + fields%stress_of(:, 2*c, k)*state%u(2, node)
+      end do
+    end do
+  end subroutine find_stress
+
+  !> Principal stresses, the largest first.
+  pure subroutine fill_principal(stress, values)
+    real(wp), intent(in) :: stress(:, :)
+    real(wp), intent(inout) :: values(:, :)
+    real(wp) :: mean, radius, high, low
+    integer :: k
+    do k = 1, size(stress, 2)
+      mean = half*(stress(1, k) + stress(2, k))
+      radius = sqrt((half*(stress(1, k) - stress(2, k)))**2 + stress(4, k)**2)
+      high = mean + radius
+      low = mean - radius
+      values(1, k) = max(high, stress(3, k))
+      values(3, k) = min(low, stress(3, k))
+      values(2, k) = (high + low + stress(3, k)) - values(1, k) - values(3, k)
+      if (stress(3, k) >= high) values(2, k) = high
+      if (stress(3, k) <= low) values(2, k) = low
+      if (stress(3, k) > low .and. stress(3, k) < high) values(2, k) = stress(3, k)
+    end do
+  end subroutine fill_principal
+
+  !> What contact knows of nodes, all pairs together: sums of force and pressure, the smallest gap
+  !> (not a number where none is watched), the highest status (-1 where there is no surface).
+  subroutine fill_contact(contact, nodes, list, field)
+    type(contact_t), intent(in) :: contact
+    integer, intent(in) :: nodes, list(:)
+    type(field_t), intent(inout) :: field
+    real(wp) :: all_nodes(size(field%values, 1), nodes)
+    integer :: p, k
+    all_nodes = zero
+    if (field%name == 'GAP') all_nodes = no_gap
+    if (field%name == 'STATUS') all_nodes = -1.0_wp
+    do p = 1, size(contact%pair)
+      if (.not. allocated(contact%pair(p)%nodal)) cycle
+      associate (c => contact%pair(p)%nodal)
+        do k = 1, size(c%node)
+          associate (to => all_nodes(:, c%node(k)))
+            select case (field%name)
+            case ('FORCE')
+              to(1:2) = to(1:2) + c%force(:, k)
+            case ('PRESSURE')
+              if (c%area(k) > zero) to = to + c%normal(k)/c%area(k)
+            case ('GAP')
+              to = min(to, c%gap(k))
+            case ('STATUS')
+              to = max(to, real(c%status(k), wp))
+            end select
+          end associate
+        end do
+      end associate
+    end do
+    field%values = all_nodes(:, list)
+    if (field%name == 'GAP') then
+      do k = 1, size(list)
+        if (field%values(1, k) >= no_gap) field%values(1, k) = ieee_value(zero, ieee_quiet_nan)
+      end do
+    end if
+  end subroutine fill_contact
+
+end module output_fields

@@ -1,0 +1,159 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--check | --plan] [--quiet]
+!> The program from its command line to its exit code, with or without what keeps fields and
+!> restart files.
+module run_program
+  use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use base_signal, only: watch_signals
+  use base_status, only: status_t, fail, failed, status_text, status_ok, status_stopped, &
+      status_file
+  use base_strings, only: stem_of
+  use base_system, only: make_folder, leave, become_sibling
+  use base_timers, only: phase_output, phase_other
+  use base_version, only: version
+  use deck_help, only: write_keywords, write_usage
+  use deck_keywords, only: fill_table
+  use output_storage, only: storage_t
+  use output_tables, only: open_tables, close_tables
+  use run_arguments, only: arguments_t, read_arguments
+  use run_data, only: run_t
+  use run_frames, only: start_frames, end_segment, remove_segments
+  use run_loop, only: go_through_steps
+  use run_report, only: open_log, close_log, write_plan
+  use run_restart, only: start_restarts, resume, remove_restarts
+  use run_setup, only: read_scene, set_up
+  implicit none
+  private
+  public :: run_deck
+
+contains
+
+  !> Does what the command line asks for and leaves with the exit code. storage, where allocated,
+  !> keeps fields and restart files; a program without it becomes the one that has it when a
+  !> scene asks for them.
+  subroutine run_deck(storage)
+    class(storage_t), allocatable, intent(inout) :: storage
+    type(arguments_t) :: arguments
+    type(run_t), allocatable :: run
+    type(status_t) :: status
+    allocate (run)
+    call move_alloc(storage, run%storage)
+    call run%timers%start()
+    call read_arguments(arguments, status)
+    if (failed(status)) then
+      continue
+    else if (arguments%help) then
+      call write_usage(output_unit)
+    else if (arguments%version) then
+      write (output_unit, '(a)') 'bipact '//version
+    else if (arguments%keywords) then
+      call fill_table(run%deck%table)
+      call write_keywords(run%deck%table, output_unit)
+    else
+      call work(arguments, run, status)
+    end if
+    if (failed(status)) write (error_unit, '(a)') 'bipact: '//status_text(status)
+    deallocate (run)
+    call leave(status%code)
+  end subroutine run_deck
+
+  subroutine work(arguments, run, status)
+    type(arguments_t), intent(inout) :: arguments
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    integer :: k
+    run%quiet = arguments%quiet
+    run%folder = stem_of(arguments%deck)//'.out'
+    if (allocated(arguments%folder)) run%folder = arguments%folder
+    call read_scene(arguments%deck, arguments%override, run, status)
+    if (.not. (failed(status) .or. arguments%plan .or. arguments%check)) &
+        call need_storage(arguments, run, status)
+    do k = 1, run%deck%problems%count
+      write (error_unit, '(a)') run%deck%problems%problem(k)%text
+    end do
+    if (failed(status)) return
+    if (arguments%plan .or. arguments%check) then
+      call tell_scene(arguments, run)
+      return
+    end if
+    call set_up(run, status)
+    if (failed(status)) return
+    call compute(arguments, run, status)
+  end subroutine work
+
+  !> What the deck says, without running it.
+  subroutine tell_scene(arguments, run)
+    type(arguments_t), intent(in) :: arguments
+    type(run_t), intent(in) :: run
+    integer :: k
+    if (arguments%check) write (output_unit, '(a)') arguments%deck//': the deck is valid'
+    do k = 1, run%deck%problems%note_count
+      write (output_unit, '(a)') 'NOTE '//run%deck%problems%note(k)%text
+    end do
+    do k = 1, run%deck%problems%warning_count
+      write (output_unit, '(a)') 'WARNING '//run%deck%problems%warning(k)%text
+    end do
+    call write_plan(run, output_unit)
+  end subroutine tell_scene
+
+  !> Fields and restarts need the program that is linked with HDF5: it starts from the beginning.
+  subroutine need_storage(arguments, run, status)
+    type(arguments_t), intent(in) :: arguments
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: path
+    if (allocated(run%storage)) return
+    if (.not. (run%plan%fields .or. run%plan%restarts .or. allocated(arguments%restart))) return
+    call become_sibling('hdf5', path)
+    call fail(status, status_file, 'field files and restarts need the program "'//path// &
+        '", which cannot be started', hint='install HDF5 (make deps) and build again (make)')
+  end subroutine need_storage
+
+  subroutine compute(arguments, run, status)
+    type(arguments_t), intent(in) :: arguments
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    type(status_t) :: closing
+    character(:), allocatable :: ending
+    call run%timers%enter(phase_output)
+    call make_folder(run%folder, status)
+    if (failed(status)) return
+    call start_storage(arguments, run, status)
+    if (failed(status)) return
+    call open_log(run, status)
+    call open_tables(run%tables, run%model, run%folder, run%scheme%has_acceleration, &
+        allocated(run%restarted), status)
+    if (failed(status)) return
+    call run%timers%enter(phase_other)
+    call watch_signals(run%plan%restarts .and. run%model%requests%restart%on_signal)
+    call go_through_steps(run, status)
+    call run%timers%enter(phase_output)
+    ending = 'failed'
+    if (status%code == status_ok) ending = 'done'
+    if (status%code == status_stopped) ending = 'stopped'
+    call close_tables(run%tables, ending, run%state%cycle, closing)
+    if (run%plan%fields) call end_segment(run, closing)
+    call run%timers%enter(phase_other)
+    if (.not. failed(status)) status = closing
+    call close_log(run, status)
+  end subroutine compute
+
+  !> Files of an earlier run go; or the run goes on from where one of them left it.
+  subroutine start_storage(arguments, run, status)
+    type(arguments_t), intent(in) :: arguments
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    if (run%plan%fields) call start_frames(run)
+    if (run%plan%restarts .or. allocated(arguments%restart)) call start_restarts(run)
+    if (allocated(arguments%restart)) then
+      call resume(run, arguments%restart, status)
+      if (failed(status)) return
+      call remove_restarts(run%folder, run%state%cycle)
+      if (run%plan%fields) call remove_segments(run%folder, run%fields%segment)
+    else
+      call remove_restarts(run%folder, -1)
+      call remove_segments(run%folder, 0)
+    end if
+  end subroutine start_storage
+
+end module run_program

@@ -1,0 +1,199 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Field files in the layout of VTKHDF (version 2.0): an unstructured grid with one mesh for all
+!> steps, the steps of each field stacked along its first axis.
+module store_fields
+  use base_kinds, only: wp, i8
+  use base_status, only: status_t, fail, failed, status_file
+  use hdf5, only: hid_t, h5gopen_f, h5gclose_f, h5fflush_f, h5f_scope_global_f
+  use hdf5_file, only: file_t, create_file, close_file, make_group
+  use hdf5_series, only: series_t, create_series, append_rows, flush_series, close_series, &
+      open_attribute, write_attribute, close_attribute, write_text_attribute, &
+      write_list_attribute
+  use output_storage, only: mesh_t, field_t, segment_options_t
+  implicit none
+  private
+  public :: open_fields, add_frame, close_fields
+
+  integer, parameter :: chunk_bytes = 2**20, longest_list = 256
+
+  type, public :: fields_file_t
+    type(file_t) :: file
+    logical :: is_open = .false.
+    integer :: frames = 0
+    integer :: nodes = 0, cells = 0
+    integer(hid_t) :: count = -1                !< attribute NSteps
+    type(series_t), allocatable :: field(:)
+    type(series_t), allocatable :: offset(:)    !< of each field, one entry a frame
+    integer :: list_chunk = longest_list
+    type(series_t) :: times, list(5)            !< what VTK wants to know of each step
+  end type fields_file_t
+
+  character(22), parameter :: lists(5) = [character(22) :: 'PartOffsets', 'NumberOfParts', &
+      'PointOffsets', 'CellOffsets', 'ConnectivityIdOffsets']
+
+contains
+
+  !> Begins a file with the mesh and the fields (their values are not yet written).
+  subroutine open_fields(path, mesh, fields, options, to, status)
+    character(*), intent(in) :: path
+    type(mesh_t), intent(in) :: mesh
+    type(field_t), intent(in) :: fields(:)
+    type(segment_options_t), intent(in) :: options
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: root, steps
+    integer :: k, error
+    call create_file(path, to%file, status)
+    if (failed(status)) return
+    to%is_open = .true.
+    to%frames = 0
+    to%list_chunk = max(1, min(longest_list, options%frames))
+    to%nodes = size(mesh%points, 2)
+    to%cells = size(mesh%kind)
+    call make_group(to%file, '/VTKHDF', status)
+    call h5gopen_f(to%file%id, '/VTKHDF', root, error)
+    call write_list_attribute(root, 'Version', [2_i8, 0_i8])
+    call write_text_attribute(root, 'Type', 'UnstructuredGrid')
+    call h5gclose_f(root, error)
+    call write_mesh(mesh, options, to, status)
+    call make_group(to%file, '/VTKHDF/PointData', status)
+    call make_group(to%file, '/VTKHDF/CellData', status)
+    call make_group(to%file, '/VTKHDF/Steps', status)
+    call make_group(to%file, '/VTKHDF/Steps/PointDataOffsets', status)
+    call make_group(to%file, '/VTKHDF/Steps/CellDataOffsets', status)
+    if (failed(status)) return
+    call h5gopen_f(to%file%id, '/VTKHDF/Steps', steps, error)
+    call open_attribute(steps, 'NSteps', 0_i8, to%count)
+    call h5gclose_f(steps, error)
+    call create_series(to%file, '/VTKHDF/Steps/Values', 'REAL', 1, .true., to%list_chunk, 0, &
+        to%times, status)
+    do k = 1, size(lists)
+      call create_series(to%file, '/VTKHDF/Steps/'//trim(lists(k)), 'INTEGER', 1, k < 4, &
+          to%list_chunk, 0, to%list(k), status)
+    end do
+    if (allocated(to%field)) deallocate (to%field, to%offset)
+    allocate (to%field(size(fields)), to%offset(size(fields)))
+    do k = 1, size(fields)
+      call open_field(fields(k), options, k, to, status)
+    end do
+  end subroutine open_fields
+
+  subroutine open_field(field, options, k, to, status)
+    type(field_t), intent(in) :: field
+    type(segment_options_t), intent(in) :: options
+    integer, intent(in) :: k
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: place, kind
+    integer :: components, rows, frames
+    place = merge('Point', 'Cell ', field%at_nodes)
+    kind = 'REAL'
+    if (options%single) kind = 'SINGLE'
+    if (field%whole) kind = 'INTEGER'
+    components = size(field%values, 1)
+    rows = max(1, size(field%values, 2))
+    frames = 1
+    if (.not. field%constant) frames = max(1, min(options%frames, &
+        chunk_bytes/(rows*components*merge(4, 8, options%single))))
+    call create_series(to%file, '/VTKHDF/'//trim(place)//'Data/'//trim(field%name), kind, &
+        components, components == 1, rows*frames, options%compression, to%field(k), status)
+    call create_series(to%file, '/VTKHDF/Steps/'//trim(place)//'DataOffsets/'// &
+        trim(field%name), 'INTEGER', 1, .true., to%list_chunk, 0, to%offset(k), status)
+  end subroutine open_field
+
+  !> Points, cells, and how many of each.
+  subroutine write_mesh(mesh, options, to, status)
+    type(mesh_t), intent(in) :: mesh
+    type(segment_options_t), intent(in) :: options
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    call put('NumberOfPoints', 'INTEGER', reshape([real(to%nodes, wp)], [1, 1]))
+    call put('NumberOfCells', 'INTEGER', reshape([real(to%cells, wp)], [1, 1]))
+    call put('NumberOfConnectivityIds', 'INTEGER', &
+        reshape([real(size(mesh%connectivity), wp)], [1, 1]))
+    call put('Points', 'REAL', mesh%points)
+    call put('Connectivity', 'INTEGER', reshape(real(mesh%connectivity, wp), &
+        [1, size(mesh%connectivity)]))
+    call put('Offsets', 'INTEGER', reshape(real(mesh%offsets, wp), [1, size(mesh%offsets)]))
+    call put('Types', 'BYTE', reshape(real(mesh%kind, wp), [1, size(mesh%kind)]))
+
+  contains
+
+    subroutine put(name, kind, values)
+      character(*), intent(in) :: name, kind
+      real(wp), intent(in) :: values(:, :)
+      type(series_t) :: series
+      call create_series(to%file, '/VTKHDF/'//name, kind, size(values, 1), &
+          size(values, 1) == 1, max(1, size(values, 2)), options%compression, series, status)
+      call append_rows(to%file, series, values, status)
+      call close_series(to%file, series, status)
+    end subroutine put
+
+  end subroutine write_mesh
+
+  !> Adds a frame. When the first field has written a chunk, so do all, and the number of frames
+  !> follows: the file can then be read up to there whatever happens.
+  subroutine add_frame(time, fields, to, status)
+    real(wp), intent(in) :: time
+    type(field_t), intent(in) :: fields(:)
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    real(wp), parameter :: of_step(5) = [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+    logical :: written
+    integer :: k, first
+    written = .false.
+    do k = 1, size(fields)
+      first = 0
+      if (.not. fields(k)%constant) first = to%frames*size(fields(k)%values, 2)
+      if (.not. fields(k)%constant .or. to%frames == 0) &
+          call append_rows(to%file, to%field(k), fields(k)%values, status)
+      call append_rows(to%file, to%offset(k), reshape([real(first, wp)], [1, 1]), status)
+      if (.not. fields(k)%constant) written = written .or. to%field(k)%held == 0
+    end do
+    call append_rows(to%file, to%times, reshape([time], [1, 1]), status)
+    do k = 1, size(lists)
+      call append_rows(to%file, to%list(k), reshape([of_step(k)], [1, 1]), status)
+    end do
+    to%frames = to%frames + 1
+    if (written) call flush_frames(to, status)
+  end subroutine add_frame
+
+  subroutine flush_frames(to, status)
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    integer :: k, error
+    do k = 1, size(to%field)
+      call flush_series(to%file, to%field(k), status)
+      call flush_series(to%file, to%offset(k), status)
+    end do
+    call flush_series(to%file, to%times, status)
+    do k = 1, size(lists)
+      call flush_series(to%file, to%list(k), status)
+    end do
+    call write_attribute(to%count, int(to%frames, i8))
+    call h5fflush_f(to%file%id, h5f_scope_global_f, error)
+    if (error < 0) call fail(status, status_file, 'cannot write "'//to%file%name//'"', &
+        hint='is the disk full, the folder gone or closed?')
+  end subroutine flush_frames
+
+  !> Ends the file.
+  subroutine close_fields(to, status)
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    integer :: k
+    if (.not. to%is_open) return
+    call flush_frames(to, status)
+    do k = 1, size(to%field)
+      call close_series(to%file, to%field(k), status)
+      call close_series(to%file, to%offset(k), status)
+    end do
+    call close_series(to%file, to%times, status)
+    do k = 1, size(lists)
+      call close_series(to%file, to%list(k), status)
+    end do
+    call close_attribute(to%count)
+    call close_file(to%file, status)
+    to%is_open = .false.
+  end subroutine close_fields
+
+end module store_fields
