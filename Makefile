@@ -20,7 +20,6 @@ SUPPORT := $(B)/libsupport.a
 # HDF5, for bipact-hdf5 and bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
 HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
                 /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
-HDF5_LIBS ?= $(if $(findstring serial,$(HDF5_MODULES)),-lhdf5_serial_fortran -lhdf5_serial,-lhdf5_fortran -lhdf5)
 Q := $(if $(V),,@)
 
 .DELETE_ON_ERROR:
@@ -138,6 +137,16 @@ LIBS := $(foreach lib,lapack blas metis,$(or $(call archive,$(lib)),-l$(lib)))
 endif
 ifndef LDFLAGS
 LDFLAGS := $(if $(call archive,gfortran),-static-libgfortran)
+endif
+
+# The same for HDF5 and what it needs: shared, it takes 8 ms to start.
+ifndef HDF5_LIBS
+hdf5_serial := $(if $(findstring serial,$(HDF5_MODULES)),_serial)
+HDF5_LIBS := $(foreach lib,hdf5$(hdf5_serial)_fortran hdf5$(hdf5_serial) sz aec z,$(call archive,$(lib)))
+ifneq ($(words $(HDF5_LIBS)),5)
+HDF5_LIBS := -lhdf5$(hdf5_serial)_fortran -lhdf5$(hdf5_serial)
+endif
+HDF5_LIBS += -ldl -lm
 endif
 
 version := $(B)/gen/base_version.f90

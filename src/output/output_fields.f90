@@ -4,7 +4,7 @@ module output_fields
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use assembly_forces, only: element_product
   use assembly_system, only: system_t
-  use base_kinds, only: wp, zero, half
+  use base_kinds, only: wp, zero, half, one
   use contact_types, only: contact_t, no_gap
   use element_base, only: element_t
   use element_registry, only: make_element
@@ -21,6 +21,7 @@ module output_fields
     !> (4, 8, cells): sxx, syy, szz, sxy by the displacements of the corners [F/L3]; only where
     !> stress is asked for
     real(wp), allocatable :: stress_of(:, :, :)
+    integer, allocatable :: corner(:, :)       !< (4, cells) nodes
     real(wp), allocatable :: stress(:, :)      !< (4, cells) of the frame [F/L2]
     real(wp) :: next = zero                    !< a frame is due from next*interval on
     integer :: segment = 0                     !< number of the file that is open or comes next
@@ -101,6 +102,7 @@ contains
     if (allocated(fields%stress_of)) return
     allocate (fields%stress_of(4, 8, size(fields%cell)), fields%stress(4, size(fields%cell)))
     fields%stress_of = zero
+    fields%corner = model%connectivity(:, fields%cell)
     do k = 1, size(fields%cell)
       e = fields%cell(k)
       n = corner_count(model%connectivity(:, e))
@@ -186,19 +188,22 @@ contains
     type(contact_t), intent(in) :: contact
     type(fields_t), intent(inout) :: fields
     integer :: k, i
-    if (allocated(fields%stress_of)) call find_stress(model, state, fields)
+    if (allocated(fields%stress_of)) call find_stress(size(fields%cell), fields%corner, &
+        fields%stress_of, model%nodes, state%u, fields%stress)
     do k = 1, size(fields%field)
       associate (values => fields%field(k)%values)
         select case (fields%field(k)%name)
         case ('U')
-          values(1:2, :) = state%u(:, fields%node)
+          call gather(size(fields%node), fields%node, model%nodes, state%u, one, values)
         case ('V')
-          if (state%cycle == 0) values(1:2, :) = state%v(:, fields%node)
-          if (state%cycle > 0) values(1:2, :) = state%du(:, fields%node)/state%h_last
+          if (state%cycle == 0) call gather(size(fields%node), fields%node, model%nodes, &
+              state%v, one, values)
+          if (state%cycle > 0) call gather(size(fields%node), fields%node, model%nodes, &
+              state%du, state%h_last, values)
         case ('FORCE', 'PRESSURE', 'GAP', 'STATUS')
           call fill_contact(contact, model%nodes, fields%node, fields%field(k))
         case ('STRESS')
-          values([1, 2, 3, 4], :) = fields%stress
+          values(1:4, :) = fields%stress
         case ('PRINCIPAL')
           call fill_principal(fields%stress, values)
         case ('ENERGY')
@@ -210,21 +215,34 @@ contains
     end do
   end subroutine fill_fields
 
-  pure subroutine find_stress(model, state, fields)
-    type(model_t), intent(in) :: model
-    type(state_t), intent(in) :: state
-    type(fields_t), intent(inout) :: fields
+  !> Stress of the cells from the displacements of their corners.
+  pure subroutine find_stress(cells, corner, stress_of, nodes, u, stress)
+    integer, intent(in) :: cells, nodes, corner(4, cells)
+    real(wp), intent(in) :: stress_of(4, 8, cells), u(2, nodes)
+    real(wp), intent(out) :: stress(4, cells)
+    real(wp) :: sum_of(4)
     integer :: k, c, node
-    do k = 1, size(fields%cell)
-      fields%stress(:, k) = zero
-      do c = 1, corner_count(model%connectivity(:, fields%cell(k)))
-        node = model%connectivity(c, fields%cell(k))
-        fields%stress(:, k) = fields%stress(:, k) &
-            + fields%stress_of(:, 2*c - 1, k)*state%u(1, node) &
-            + fields%stress_of(:, 2*c, k)*state%u(2, node)
+    do k = 1, cells
+      sum_of = zero
+      do c = 1, 4      ! the fourth of a triangle counts for nothing
+        node = corner(c, k)
+        sum_of = sum_of + stress_of(:, 2*c - 1, k)*u(1, node) + stress_of(:, 2*c, k)*u(2, node)
       end do
+      stress(:, k) = sum_of
     end do
   end subroutine find_stress
+
+  !> values(1:2, k) = x(:, list(k)) / divisor.
+  pure subroutine gather(n, list, nodes, x, divisor, values)
+    integer, intent(in) :: n, list(n), nodes
+    real(wp), intent(in) :: x(2, nodes), divisor
+    real(wp), intent(inout) :: values(3, n)
+    integer :: k
+    do k = 1, n
+      values(1, k) = x(1, list(k))/divisor
+      values(2, k) = x(2, list(k))/divisor
+    end do
+  end subroutine gather
 
   !> Principal stresses, the largest first.
   pure subroutine fill_principal(stress, values)

@@ -3,6 +3,7 @@
 !> that know no VTKHDF. It holds no numbers but the times: the rest is in the HDF5 files.
 module output_xdmf
   use base_files, only: move_file
+  use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
   use base_kinds, only: wp
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path, to_text
@@ -11,6 +12,22 @@ module output_xdmf
   implicit none
   private
   public :: write_xdmf, segment_name
+
+  integer, parameter :: text_size = 65536
+
+  !> Around the two numbers of a field that change from frame to frame.
+  type :: template_t
+    character(:), allocatable :: head, middle, tail
+  end type template_t
+
+  !> Text that is gathered and written many lines at a time.
+  type :: text_t
+    integer :: unit = -1, ios = 0, filled = 0
+    character(200) :: reason = ''
+    character(:), allocatable :: buffer, mesh
+    type(template_t), allocatable :: template(:)
+    type(real_writer_t) :: writer
+  end type text_t
 
 contains
 
@@ -32,50 +49,134 @@ contains
     logical, intent(in) :: single
     type(status_t), intent(inout) :: status
     character(:), allocatable :: path
-    character(200) :: reason
-    integer :: unit, ios, k, first
+    type(text_t) :: text
+    integer :: k, f, first
     path = join_path(folder, 'fields.xdmf')
-    open (newunit=unit, file=path//'.tmp', status='replace', action='write', iostat=ios, &
-        iomsg=reason)
-    if (ios == 0) write (unit, '(a)', iostat=ios, iomsg=reason) '<?xml version="1.0"?>', &
-        '<Xdmf Version="3.0"><Domain>', &
-        '<Grid Name="fields" GridType="Collection" CollectionType="Temporal">'
-    first = 1
+    call open_text(path//'.tmp', text)
+    call add(text, '<?xml version="1.0"?><Xdmf Version="3.0"><Domain>'//new_line('a')// &
+        '<Grid Name="fields" GridType="Collection" CollectionType="Temporal">'//new_line('a'))
+    call make_real_writer(text%writer)
     do k = 1, fields%frames
-      if (ios /= 0) exit
+      if (k == 1) first = 1
       if (k > 1) then
         if (fields%segment_of(k) /= fields%segment_of(k - 1)) first = k
       end if
-      call write_frame(unit, mesh, fields, k, k - first, single, ios, reason)
+      if (k == first) call make_templates(mesh, fields, fields%segment_of(k), single, text)
+      call add(text, '<Grid Name="frame"><Time Value="')
+      call add_real(text, fields%time(k))
+      call add(text, text%mesh)
+      do f = 1, size(fields%field)
+        call add_attribute(text, fields%field(f), text%template(f), k - first)
+      end do
+      call add(text, '</Grid>'//new_line('a'))
     end do
-    if (ios == 0) write (unit, '(a)', iostat=ios, iomsg=reason) '</Grid></Domain></Xdmf>'
-    if (ios == 0) close (unit, iostat=ios, iomsg=reason)
-    if (ios /= 0) call fail(status, status_file, 'cannot write "'//path//'": '//trim(reason))
+    call add(text, '</Grid></Domain></Xdmf>'//new_line('a'))
+    call close_text(text)
+    if (text%ios /= 0) &
+        call fail(status, status_file, 'cannot write "'//path//'": '//trim(text%reason))
     if (.not. failed(status)) call move_file(path//'.tmp', path, status)
   end subroutine write_xdmf
 
-  !> One frame: mesh, time, and of each field the part that belongs to it; `at` counts the frames
-  !> of its file from 0.
-  subroutine write_frame(unit, mesh, fields, k, at, single, ios, reason)
-    integer, intent(in) :: unit, k, at
+  !> What stays the same for all frames of a file.
+  subroutine make_templates(mesh, fields, segment, single, text)
     type(mesh_t), intent(in) :: mesh
     type(fields_t), intent(in) :: fields
+    integer, intent(in) :: segment
     logical, intent(in) :: single
-    integer, intent(inout) :: ios
-    character(*), intent(inout) :: reason
-    character(:), allocatable :: file
-    integer :: f
-    file = segment_name(fields%segment_of(k))//':/VTKHDF/'
-    write (unit, '(a)', iostat=ios, iomsg=reason) '<Grid Name="'//to_text(k)//'"><Time Value="' &
-        //to_text(fields%time(k))//'"/>'//topology(mesh, file)// &
-        '<Geometry GeometryType="XYZ"><DataItem Dimensions="'//to_text(size(mesh%points, 2))// &
-        ' 3" NumberType="Float" Precision="8" Format="HDF">'//file//'Points</DataItem></Geometry>'
+    type(text_t), intent(inout) :: text
+    character(:), allocatable :: file, shape_text, numbers, place, columns
+    integer :: f, c
+    file = segment_name(segment)//':/VTKHDF/'
+    text%mesh = '"/>'//topology(mesh, file)//'<Geometry GeometryType="XYZ"><DataItem '// &
+        'Dimensions="'//to_text(size(mesh%points, 2))//' 3" NumberType="Float" '// &
+        'Precision="8" Format="HDF">'//file//'Points</DataItem></Geometry>'//new_line('a')
+    if (allocated(text%template)) deallocate (text%template)
+    allocate (text%template(size(fields%field)))
     do f = 1, size(fields%field)
-      if (ios /= 0) return
-      write (unit, '(a)', iostat=ios, iomsg=reason) attribute(fields%field(f), file, at, single)
+      associate (field => fields%field(f), t => text%template(f))
+        c = size(field%values, 1)
+        columns = ''
+        if (c > 1) columns = ' '//to_text(c)
+        place = trim(merge('Point', 'Cell ', field%at_nodes))
+        numbers = 'NumberType="Float" Precision="'//merge('4', '8', single)//'"'
+        if (field%whole) numbers = 'NumberType="Int" Precision="8"'
+        shape_text = to_text(size(field%values, 2))//columns
+        t%head = '<Attribute Name="'//trim(field%name)//'" AttributeType="'//kind_of(c)// &
+            '" Center="'//trim(merge('Node', 'Cell', field%at_nodes))//'"><DataItem '// &
+            'ItemType="HyperSlab" Dimensions="'//shape_text//'"><DataItem Dimensions="3 '// &
+            merge('2', '1', c > 1)//'" Format="XML">'
+        t%middle = trim(merge(' 0 1 1 ', ' 1     ', c > 1))//' '//shape_text// &
+            '</DataItem><DataItem Dimensions="'
+        t%tail = columns//'" '//numbers//' Format="HDF">'//file//place//'Data/'// &
+            trim(field%name)//'</DataItem></DataItem></Attribute>'//new_line('a')
+      end associate
     end do
-    if (ios == 0) write (unit, '(a)', iostat=ios, iomsg=reason) '</Grid>'
-  end subroutine write_frame
+  end subroutine make_templates
+
+  !> The part of a field that belongs to a frame; `at` counts the frames of its file from 0.
+  subroutine add_attribute(text, field, template, at)
+    type(text_t), intent(inout) :: text
+    type(field_t), intent(in) :: field
+    type(template_t), intent(in) :: template
+    integer, intent(in) :: at
+    integer :: first
+    first = 0
+    if (.not. field%constant) first = at*size(field%values, 2)
+    call add(text, template%head)
+    call add_integer(text, first)
+    call add(text, template%middle)
+    call add_integer(text, first + size(field%values, 2))
+    call add(text, template%tail)
+  end subroutine add_attribute
+
+  subroutine open_text(path, text)
+    character(*), intent(in) :: path
+    type(text_t), intent(inout) :: text
+    allocate (character(text_size) :: text%buffer)
+    open (newunit=text%unit, file=path, status='replace', action='write', access='stream', &
+        form='unformatted', iostat=text%ios, iomsg=text%reason)
+  end subroutine open_text
+
+  subroutine add(text, part)
+    type(text_t), intent(inout) :: text
+    character(*), intent(in) :: part
+    if (text%filled + len(part) > text_size) call put(text)
+    if (len(part) > text_size) then
+      if (text%ios == 0) write (text%unit, iostat=text%ios, iomsg=text%reason) part
+      return
+    end if
+    text%buffer(text%filled + 1:text%filled + len(part)) = part
+    text%filled = text%filled + len(part)
+  end subroutine add
+
+  subroutine add_integer(text, number)
+    type(text_t), intent(inout) :: text
+    integer, intent(in) :: number
+    character(12) :: digits
+    call put_integer(number, digits)
+    call add(text, digits(verify(digits, ' '):))
+  end subroutine add_integer
+
+  subroutine add_real(text, number)
+    type(text_t), intent(inout) :: text
+    real(wp), intent(in) :: number
+    character(real_width) :: digits
+    call put_real(text%writer, number, digits)
+    call add(text, digits(verify(digits, ' '):))
+  end subroutine add_real
+
+  subroutine put(text)
+    type(text_t), intent(inout) :: text
+    if (text%ios == 0) &
+        write (text%unit, iostat=text%ios, iomsg=text%reason) text%buffer(:text%filled)
+    text%filled = 0
+  end subroutine put
+
+  subroutine close_text(text)
+    type(text_t), intent(inout) :: text
+    call put(text)
+    if (text%ios == 0) close (text%unit, iostat=text%ios, iomsg=text%reason)
+  end subroutine close_text
 
   !> Cells of one kind, or mixed: then the kinds stand in the text, for VTKHDF keeps them apart.
   function topology(mesh, file) result(text)
@@ -112,35 +213,6 @@ contains
       text = text//' '//to_text(mesh%connectivity(m))
     end do
   end function cell
-
-  function attribute(field, file, at, single) result(text)
-    type(field_t), intent(in) :: field
-    character(*), intent(in) :: file
-    integer, intent(in) :: at
-    logical, intent(in) :: single
-    character(:), allocatable :: text
-    character(:), allocatable :: shape_text, centre, numbers, place
-    integer :: n, c, first
-    c = size(field%values, 1)
-    n = size(field%values, 2)
-    first = at*n
-    if (field%constant) first = 0
-    centre = trim(merge('Node', 'Cell', field%at_nodes))
-    place = trim(merge('Point', 'Cell ', field%at_nodes))
-    numbers = 'NumberType="Float" Precision="'//merge('4', '8', single)//'"'
-    if (field%whole) numbers = 'NumberType="Int" Precision="8"'
-    shape_text = to_text(n)
-    if (c > 1) shape_text = shape_text//' '//to_text(c)
-    text = '<Attribute Name="'//trim(field%name)//'" AttributeType="'//kind_of(c)//'" Center="'// &
-        centre//'"><DataItem ItemType="HyperSlab" Dimensions="'//shape_text//'"><DataItem '// &
-        'Dimensions="3 '//merge('2', '1', c > 1)//'" Format="XML">'
-    if (c > 1) text = text//to_text(first)//' 0 1 1 '//shape_text
-    if (c == 1) text = text//to_text(first)//' 1 '//shape_text
-    text = text//'</DataItem><DataItem Dimensions="'//to_text(first + n)
-    if (c > 1) text = text//' '//to_text(c)
-    text = text//'" '//numbers//' Format="HDF">'//file//place//'Data/'//trim(field%name)// &
-        '</DataItem></DataItem></Attribute>'
-  end function attribute
 
   pure function kind_of(components) result(text)
     integer, intent(in) :: components

@@ -4,6 +4,8 @@
 !> restart files.
 module run_program
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use base_files, only: file_size
+  use base_kinds, only: i8
   use base_signal, only: watch_signals
   use base_status, only: status_t, fail, failed, status_text, status_ok, status_stopped, &
       status_file
@@ -61,10 +63,12 @@ contains
     type(arguments_t), intent(inout) :: arguments
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
+    character(:), allocatable :: sibling
     integer :: k
     run%quiet = arguments%quiet
     run%folder = stem_of(arguments%deck)//'.out'
     if (allocated(arguments%folder)) run%folder = arguments%folder
+    if (likely_storage(arguments, run)) call become_sibling('hdf5', sibling)
     call read_scene(arguments%deck, arguments%override, run, status)
     if (.not. (failed(status) .or. arguments%plan .or. arguments%check)) &
         call need_storage(arguments, run, status)
@@ -95,6 +99,28 @@ contains
     end do
     call write_plan(run, output_unit)
   end subroutine tell_scene
+
+  !> A look at the beginning of the deck, which saves reading it twice: does it name fields or
+  !> restarts? Where it does not, the scene will tell.
+  logical function likely_storage(arguments, run)
+    type(arguments_t), intent(in) :: arguments
+    type(run_t), intent(in) :: run
+    integer(i8), parameter :: most = 65536_i8
+    character(:), allocatable :: text
+    integer(i8) :: size
+    integer :: unit, ios
+    likely_storage = .false.
+    if (allocated(run%storage) .or. arguments%plan .or. arguments%check) return
+    size = min(most, file_size(arguments%deck))
+    if (size < 1_i8) return
+    allocate (character(size) :: text)
+    open (newunit=unit, file=arguments%deck, access='stream', form='unformatted', &
+        status='old', action='read', iostat=ios)
+    if (ios == 0) read (unit, iostat=ios) text
+    close (unit, iostat=ios)
+    likely_storage = index(text, new_line('a')//'*BIPACT_FIELD') > 0 .or. &
+        index(text, new_line('a')//'*BIPACT_RESTART') > 0
+  end function likely_storage
 
   !> Fields and restarts need the program that is linked with HDF5: it starts from the beginning.
   subroutine need_storage(arguments, run, status)
