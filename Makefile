@@ -138,6 +138,8 @@ endif
 ifndef LDFLAGS
 LDFLAGS := $(if $(call archive,gfortran),-static-libgfortran)
 endif
+# An ALLOCATE that fails comes to base_memory.
+LDFLAGS += -Wl,--wrap=_gfortran_os_error_at -Wl,--wrap=_gfortran_os_error
 
 # The same for HDF5 and what it needs: shared, it takes 8 ms to start.
 ifndef HDF5_LIBS

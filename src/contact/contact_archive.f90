@@ -10,8 +10,6 @@ module contact_archive
   private
   public :: exchange_contact
 
-  integer, parameter :: candidate_integers = 6, candidate_reals = 10
-
 contains
 
   !> Saves to or restores from the archive. After restoring, the contact block is that of the
@@ -69,51 +67,29 @@ contains
     allocate (contact%flexibility(2*counts(3), 2*counts(3)))
   end subroutine size_lists
 
+  !> One column a candidate; indices and flags are exact as reals.
   subroutine exchange_candidates(archive, name, list)
     type(archive_t), intent(inout) :: archive
     character(*), intent(in) :: name
     type(candidate_t), intent(inout) :: list(:)
-    integer :: integers(candidate_integers, size(list))
-    real(wp) :: reals(candidate_reals, size(list))
-    logical :: flags(2, size(list))
+    real(wp) :: table(18, size(list))
     integer :: k
     do k = 1, size(list)
       associate (c => list(k))
-        integers(:, k) = [c%pair, c%node, c%edge, c%a, c%b, c%status]
-        reals(:, k) = [c%xi, c%share, c%normal, c%length, c%gap, c%r, c%u]
-        flags(:, k) = [c%valid, c%held]
+        table(1:8, k) = real([c%pair, c%node, c%edge, c%a, c%b, c%status, merge(1, 0, &
+            c%valid), merge(1, 0, c%held)], wp)
+        table(9:, k) = [c%xi, c%share, c%normal, c%length, c%gap, c%r, c%u]
       end associate
     end do
-    call exchange_table(archive, name//'.numbers', integers)
-    call archive%exchange(name//'.values', reals)
-    call exchange_flags(archive, name//'.flags', flags)
+    call archive%exchange(name, table)
     do k = 1, size(list)
-      list(k) = candidate_t(pair=integers(1, k), node=integers(2, k), edge=integers(3, k), &
-          a=integers(4, k), b=integers(5, k), status=integers(6, k), xi=reals(1, k), &
-          share=reals(2, k), normal=reals(3:4, k), length=reals(5, k), gap=reals(6, k), &
-          r=reals(7:8, k), u=reals(9:10, k), valid=flags(1, k), held=flags(2, k))
+      associate (n => nint(table(1:8, k)), v => table(9:, k))
+        list(k) = candidate_t(pair=n(1), node=n(2), edge=n(3), a=n(4), b=n(5), status=n(6), &
+            valid=n(7) == 1, held=n(8) == 1, xi=v(1), share=v(2), normal=v(3:4), length=v(5), &
+            gap=v(6), r=v(7:8), u=v(9:10))
+      end associate
     end do
   end subroutine exchange_candidates
-
-  subroutine exchange_table(archive, name, table)
-    type(archive_t), intent(inout) :: archive
-    character(*), intent(in) :: name
-    integer, intent(inout) :: table(:, :)
-    integer :: list(size(table))
-    list = reshape(table, [size(table)])
-    call archive%exchange(name, list)
-    table = reshape(list, shape(table))
-  end subroutine exchange_table
-
-  subroutine exchange_flags(archive, name, table)
-    type(archive_t), intent(inout) :: archive
-    character(*), intent(in) :: name
-    logical, intent(inout) :: table(:, :)
-    logical :: list(size(table))
-    list = reshape(table, [size(table)])
-    call archive%exchange(name, list)
-    table = reshape(list, shape(table))
-  end subroutine exchange_flags
 
   subroutine exchange_certificate(archive, name, certificate)
     type(archive_t), intent(inout) :: archive
@@ -132,8 +108,7 @@ contains
   subroutine exchange_pair(archive, pair)
     type(archive_t), intent(inout) :: archive
     type(pair_t), intent(inout) :: pair
-    real(wp) :: values(9)
-    integer :: counts(3)
+    real(wp) :: values(24)
     logical :: searched
     searched = allocated(pair%contactor_reference)
     call archive%exchange('pair.searched', searched)
@@ -144,7 +119,8 @@ contains
     if (searched) call archive%exchange('pair.obstacle', pair%obstacle_reference)
     values = [pair%safe_distance, pair%moved, pair%room, pair%normal_force, &
         pair%tangential_force, pair%normal_work, pair%friction_work, pair%penetration, &
-        pair%smallest_gap]
+        pair%smallest_gap, real([pair%n_active, pair%n_stick, pair%n_slip], wp), pair%force, &
+        pair%force_before, pair%impulse]
     call archive%exchange('pair.values', values)
     pair%safe_distance = values(1)
     pair%moved = values(2)
@@ -155,14 +131,12 @@ contains
     pair%friction_work = values(7)
     pair%penetration = values(8)
     pair%smallest_gap = values(9)
-    counts = [pair%n_active, pair%n_stick, pair%n_slip]
-    call archive%exchange('pair.counts', counts)
-    pair%n_active = counts(1)
-    pair%n_stick = counts(2)
-    pair%n_slip = counts(3)
-    call archive%exchange('pair.force', pair%force)
-    call archive%exchange('pair.force_before', pair%force_before)
-    call archive%exchange('pair.impulse', pair%impulse)
+    pair%n_active = nint(values(10))
+    pair%n_stick = nint(values(11))
+    pair%n_slip = nint(values(12))
+    pair%force = reshape(values(13:16), [2, 2])
+    pair%force_before = reshape(values(17:20), [2, 2])
+    pair%impulse = reshape(values(21:24), [2, 2])
     if (allocated(pair%nodal)) call exchange_nodal(archive, pair%nodal)
   end subroutine exchange_pair
 

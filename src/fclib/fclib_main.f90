@@ -10,6 +10,7 @@ program fclib_main
   use cone_products, only: solve_by_products
   use cone_solver, only: solve_contacts
   use cone_types, only: cone_options_t, certificate_t, local_solver
+  use hdf5_file, only: start_library
   use fclib_problem, only: problem_t, read_problem, write_problem, write_solution
   implicit none
   character(*), parameter :: usage = &
@@ -35,6 +36,7 @@ program fclib_main
   options%warm_start = .false.
   options%max_sweeps = 100000
   seconds = huge(seconds)
+  call start_library()
   call read_arguments()
   if (.not. failed(status)) call read_problem(input, problem, status)
   if (.not. failed(status) .and. allocated(converted)) then

@@ -12,7 +12,7 @@ module hdf5_file
       h5gn_members_f, h5gget_obj_info_idx_f
   implicit none
   private
-  public :: open_file, create_file, close_file, has_path, read_integers, read_reals, &
+  public :: start_library, open_file, create_file, close_file, has_path, read_integers, read_reals, &
       make_group, write_integers, write_reals, list_members
 
   type, public :: file_t
@@ -29,7 +29,6 @@ contains
     type(status_t), intent(inout) :: status
     integer :: error
     logical :: there
-    call start_library()
     file%name = name
     inquire (file=name, exist=there)
     if (.not. there) then
@@ -50,7 +49,6 @@ contains
     integer, intent(in), optional :: free
     integer(hid_t) :: creation
     integer :: error
-    call start_library()
     file%name = name
     call h5pcreate_f(h5p_file_create_f, creation, error)
     if (present(free)) call h5pset_userblock_f(creation, int(free, hsize_t), error)
@@ -60,6 +58,7 @@ contains
     call h5pclose_f(creation, error)
   end subroutine create_file
 
+  !> Once, before all else: again it would make all its types again. Errors become statuses.
   subroutine start_library()
     integer :: error
     call h5open_f(error)

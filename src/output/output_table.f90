@@ -2,7 +2,7 @@
 !> A table: header, rows of constant width, a closing line. Rows are collected and written many
 !> at a time, always whole.
 module output_table
-  use base_files, only: file_size, cut_file
+  use base_files, only: file_exists, file_size, cut_file
   use base_format, only: real_writer_t, real_width, put_real, put_integer
   use base_kinds, only: wp, zero, i8
   use base_status, only: status_t, fail, status_file
@@ -180,6 +180,8 @@ contains
     call write_out(table, status)
     close (table%unit)
     table%on = .false.
+    if (.not. file_exists(table%path)) call fail(status, status_file, '"'//table%path// &
+        '" was removed while the run wrote it')
   end subroutine close_table
 
 end module output_table

@@ -184,21 +184,30 @@ contains
   subroutine exchange_ledger(archive, ledger)
     type(archive_t), intent(inout) :: archive
     type(ledger_t), intent(inout) :: ledger
-    call archive%exchange('ledger.initial', ledger%initial)
-    call archive%exchange('ledger.external', ledger%external)
-    call archive%exchange('ledger.motion', ledger%motion)
-    call archive%exchange('ledger.friction', ledger%contact%friction)
-    call archive%exchange('ledger.normal', ledger%contact%normal)
-    call archive%exchange('ledger.unsolved', ledger%contact%unsolved)
-    call archive%exchange('ledger.allowed', ledger%contact%allowed_growth)
-    call archive%exchange('ledger.algorithmic', ledger%algorithmic)
-    call archive%exchange('ledger.damping', ledger%damping)
-    call archive%exchange('ledger.largest', ledger%largest)
-    call archive%exchange('ledger.lowest', ledger%lowest)
-    call archive%exchange('ledger.worst', ledger%worst_residual)
-    call archive%exchange('ledger.growth', ledger%largest_growth)
-    call archive%exchange('ledger.growths', ledger%growths)
-    call archive%exchange('ledger.first', ledger%first_growth)
+    real(wp) :: values(13)
+    integer :: counts(2)
+    values = [ledger%initial, ledger%external, ledger%motion, ledger%contact%friction, &
+        ledger%contact%normal, ledger%contact%unsolved, ledger%contact%allowed_growth, &
+        ledger%algorithmic, ledger%damping, ledger%largest, ledger%lowest, &
+        ledger%worst_residual, ledger%largest_growth]
+    counts = [ledger%growths, ledger%first_growth]
+    call archive%exchange('ledger.values', values)
+    call archive%exchange('ledger.counts', counts)
+    ledger%initial = values(1)
+    ledger%external = values(2)
+    ledger%motion = values(3)
+    ledger%contact%friction = values(4)
+    ledger%contact%normal = values(5)
+    ledger%contact%unsolved = values(6)
+    ledger%contact%allowed_growth = values(7)
+    ledger%algorithmic = values(8)
+    ledger%damping = values(9)
+    ledger%largest = values(10)
+    ledger%lowest = values(11)
+    ledger%worst_residual = values(12)
+    ledger%largest_growth = values(13)
+    ledger%growths = counts(1)
+    ledger%first_growth = counts(2)
   end subroutine exchange_ledger
 
 end module time_ledger

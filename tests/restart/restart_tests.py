@@ -1,0 +1,513 @@
+"""A run that is stopped, killed or starved goes on from its last good restart file as if nothing
+had been: every byte of its tables, every number of its fields."""
+
+import glob
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+import scenes
+from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, show
+
+import fields
+import make_scenes
+
+HDF5 = re.sub(r"bipact([^/]*)$", r"bipact-hdf5\1", BIPACT)
+RESTART = "*BIPACT_RESTART\n%10d%10s%10d\n"
+EVERY_FIELD = "*BIPACT_FIELD\n%10.3e\n       ALL\n"
+
+
+def scene(name):
+    """A deck's text: two bars with and without friction, massless nodes, a wall, a block."""
+    path = os.path.join(TMP, "scene-%s.k" % name)
+    bars = dict(nx=20, ny=2, courant=0.5, touch=0.5)
+    if name == "smooth":
+        make_bars.write(path, **bars)
+    elif name == "friction":
+        make_bars.write(path, mu=0.3, slide=0.3, poisson=0.3, **bars)
+    elif name == "massless":
+        make_bars.write(path, mass="DISPERSION", redist=1, **bars)
+    elif name == "newmark":
+        make_bars.write(path, scheme="NEWMARK", mu=0.2, slide=0.2, **bars)
+    elif name == "lumped":
+        make_bars.write(path, mass="LUMPED", **bars)
+    elif name == "asleep":
+        make_bars.write(path, **dict(bars, touch=100.5))
+    elif name == "wall":
+        make_scenes.write(path, "wall", n=20, mu=0.2)
+    elif name == "block":
+        make_scenes.write(path, "sliding", n=3, tend=0.1, courant=2.0)
+    elif name == "pushed":
+        make_scenes.write(path, "pushed", n=3, tend=0.1, courant=2.0)
+    with open(path) as file:
+        return file.read()
+
+
+SCENES = "smooth friction massless newmark lumped asleep wall block pushed".split()
+
+
+def with_cards(text, cards):
+    """A deck with more cards before its end."""
+    assert "*END" in text
+    return text.replace("*END", cards + "*END")
+
+
+def steps_of(folder):
+    """Steps of a run, from its log."""
+    with open(os.path.join(folder, "bipact.log")) as log:
+        return int(re.search(r"^steps (\d+),", log.read(), re.M).group(1))
+
+
+def contents(folder):
+    """All that must be equal: bytes of the tables but TIMING, frames of the fields."""
+    out = {}
+    for path in glob.glob(os.path.join(folder, "*.tab")):
+        if not path.endswith("timing.tab"):
+            with open(path, "rb") as file:
+                out[os.path.basename(path)] = file.read()
+    if glob.glob(os.path.join(folder, "fields.*.vtkhdf")):
+        run = fields.Fields(folder)
+        out["times"] = run.times.tobytes()
+        for name in run.names:
+            for k in range(len(run.times)):
+                out[name, k] = run.frame(k, name).tobytes()
+    return out
+
+
+def differences(one, other):
+    """Names of what is not the same."""
+    return sorted(str(k) for k in set(one) | set(other) if one.get(k) != other.get(k))
+
+
+def write_deck(name, text):
+    path = os.path.join(TMP, name + ".k")
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def restart_files(folder):
+    return sorted(glob.glob(os.path.join(folder, "restart.*.h5")))
+
+
+def bitwise():
+    """For every scheme and mass, with and without friction, before, in and after contact, with
+    the search asleep, at walls, with loads: a run that goes on from each of its restart files is
+    the whole run."""
+    for name in SCENES:
+        plain = scene(name)
+        folder = os.path.join(TMP, name)
+        code, errors, _ = bipact(write_deck(name, plain), folder, "--quiet")
+        steps = steps_of(folder)
+        before = contents(folder)
+        step = time_of_step(folder)
+        cards = RESTART % (max(1, steps // 7), "", 99) + EVERY_FIELD % (5.2 * step)
+        deck = write_deck(name, with_cards(plain, cards))
+        code, errors, _ = bipact(deck, folder, "--quiet")
+        check(code == 0, "%s: %s" % (name, errors))
+        whole = contents(folder)
+        changed = [k for k in before if before[k] != whole.get(k)]
+        check(not changed, "%s: restart files change %s" % (name, changed))
+        files = restart_files(folder)
+        check(len(files) >= 5, "%s: %d restart files" % (name, len(files)))
+        for file in files:
+            copy = os.path.join(TMP, "copy")
+            shutil.rmtree(copy, ignore_errors=True)
+            shutil.copytree(folder, copy)
+            file = os.path.join(copy, os.path.basename(file))
+            code, errors, _ = bipact(deck, copy, "--quiet", "--restart", file)
+            check(code == 0, "%s from %s: %s" % (name, os.path.basename(file), errors))
+            off = differences(whole, contents(copy))
+            check(not off, "%s from %s: %s" % (name, os.path.basename(file), off[:5]))
+
+
+def time_of_step(folder):
+    """Length of a step, from the log."""
+    with open(os.path.join(folder, "bipact.log")) as log:
+        text = log.read()
+    return float(re.search(r"^  steps .* of (\S+)$", text, re.M).group(1))
+
+
+def killed(command, moment):
+    """Runs a command and kills it: after some seconds, or as soon as a path is there."""
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    if isinstance(moment, str):
+        while child.poll() is None and not os.path.exists(moment):
+            pass
+    else:
+        time.sleep(moment)
+    child.kill()
+    child.wait()
+
+
+def kills():
+    """SIGKILL at random moments, some inside the write of a restart file (it is there under its
+    other name), some inside that of a field file (it is there and grows): the run goes on, or
+    starts anew where it had no restart file yet, and is the whole run."""
+    random.seed(4711)
+    count = int(os.environ.get("KILLS", "100"))
+    names = ["smooth", "friction", "massless", "newmark", "block"]
+    total = resumed = 0
+    for name in names:
+        plain = scene(name)
+        folder = os.path.join(TMP, name)
+        bipact(write_deck(name, plain), folder, "--quiet")
+        steps, step = steps_of(folder), time_of_step(folder)
+        cards = RESTART % (max(1, steps // 10), "", 2) + EVERY_FIELD % step
+        deck = write_deck(name, with_cards(plain, cards))
+        start = time.time()
+        bipact(deck, folder, "--quiet")
+        seconds = time.time() - start
+        whole = contents(folder)
+        for k in range(count // len(names)):
+            shutil.rmtree(folder, ignore_errors=True)
+            moment = random.uniform(0.0, 1.1 * seconds)
+            if k % 5 == 3:
+                moment = os.path.join(folder, "restart.tmp")
+            if k % 5 == 4:
+                moment = os.path.join(folder, "fields.%03d.vtkhdf" % random.randint(0, 8))
+            killed([BIPACT, deck, "-o", folder, "--quiet"], moment)
+            options = ["--restart", "latest"] if restart_files(folder) else []
+            resumed += len(options) > 0
+            code, errors, _ = bipact(deck, folder, "--quiet", *options)
+            check(code == 0, "%s, kill %d: %s" % (name, k, errors))
+            off = differences(whole, contents(folder))
+            check(not off, "%s, kill %d: %s" % (name, k, off[:5]))
+            total += 1
+    show("%d kills, %d runs had a restart file and went on from it" % (total, resumed))
+    check(resumed > total // 4, "%d of %d kills came after a restart file" % (resumed, total))
+
+
+def long_run(cards=""):
+    """A deck that runs for some seconds, and a step of it."""
+    path = os.path.join(TMP, "long.k")
+    meta = make_bars.write(path, nx=40, ny=4, courant=0.05, touch=0.5, mu=0.2, slide=0.2)
+    with open(path) as file:
+        text = file.read()
+    write_deck("long", with_cards(text, cards))
+    return path, meta["dt"]
+
+
+def started(deck, folder, *options):
+    """Starts a run and waits until its log is there and a moment more."""
+    shutil.rmtree(folder, ignore_errors=True)
+    child = subprocess.Popen(
+        [BIPACT, deck, "-o", folder, "--quiet"] + list(options),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while child.poll() is None and not os.path.exists(os.path.join(folder, "bipact.log")):
+        time.sleep(0.01)
+    time.sleep(0.2)
+    return child
+
+
+def ended(child):
+    """(exit code, standard error) of a run."""
+    _, errors = child.communicate(timeout=120)
+    return child.returncode, errors
+
+
+def signals():
+    """SIGTERM and SIGINT: a restart file, exit code 4, and the run goes on to the same end.
+    SIGUSR1: a restart file, and the run is not disturbed. ONSIG 0 and no card: no file."""
+    folder = os.path.join(TMP, "signals")
+    deck, step = long_run(RESTART % (0, "", 2) + EVERY_FIELD % (50.0 / 1000.0))
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    check(code == 0, errors)
+    whole = contents(folder)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        child = started(deck, folder)
+        child.send_signal(number)
+        code, errors = ended(child)
+        check(code == 4 and "stopped by a signal" in errors, "%s: %d %s" % (number, code, errors))
+        check(len(restart_files(folder)) == 1, "%s: one restart file" % number)
+        with open(os.path.join(folder, "glstat.tab")) as file:
+            check("# end: stopped" in file.read(), "the table says so")
+        code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+        check(code == 0, errors)
+        check(not differences(whole, contents(folder)), "%s: the same end" % number)
+    child = started(deck, folder)
+    child.send_signal(signal.SIGUSR1)
+    code, errors = ended(child)
+    check(code == 0, "SIGUSR1: the run goes on: %d %s" % (code, errors))
+    check(len(restart_files(folder)) == 1, "SIGUSR1: one restart file")
+    check(not differences(whole, contents(folder)), "SIGUSR1: the same end")
+    deck, step = long_run("*BIPACT_RESTART\n         0                             0\n")
+    child = started(deck, folder)
+    child.send_signal(signal.SIGTERM)
+    code, errors = ended(child)
+    check(code == 4 and not restart_files(folder), "ONSIG 0: no file")
+    deck, step = long_run("*BIPACT_RESTART\n         0       0.1         3\n")
+    child = started(deck, folder)
+    code, errors = ended(child)
+    found = len(restart_files(folder))
+    check(code == 0 and found == 3, "WALL: %d files are kept, expected 3" % found)
+
+
+def fletcher(data):
+    """The checksum of restart files, computed apart."""
+    modulus = 4294967291
+    data = data + b"\0" * (-len(data) % 4)
+    one = two = 0
+    for word in np.frombuffer(data, "<u4").tolist():
+        one += word
+        two += one
+    return b"%08X%08X" % (two % modulus, one % modulus)
+
+
+def refused():
+    """Damaged, cut, foreign, older files and those of another deck: exit 3 with the reason, and
+    the folder as it was. "latest" takes the newest good one."""
+    folder = os.path.join(TMP, "refused")
+    deck = write_deck("refused", with_cards(scene("friction"), RESTART % (20, "", 9)))
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    whole = contents(folder)
+    files = restart_files(folder)
+    check(code == 0 and len(files) >= 3, "restart files are there")
+    with open(files[-1], "rb") as file:
+        good = file.read()
+    head, rest = good[:512], good[512:]
+    check(head[400:416] == fletcher(head[:400]), "the checksum of the first bytes")
+    check(fletcher(rest) in head, "the checksum of the rest")
+    random.seed(4711)
+    bad = {"": "it is no restart file", "hello": "it is no restart file"}
+    cases = [(b"", "it is no restart file"), (b"*KEYWORD\n*END\n", "it is no restart file")]
+    other = os.path.join(TMP, "other.h5")
+    with h5py.File(other, "w") as file:
+        file["archive/0001 x"] = np.zeros(3)
+    with open(other, "rb") as file:
+        cases.append((file.read(), "it is no restart file"))
+    for k in range(60):
+        at, bit = random.randrange(14, len(good)), random.randrange(8)
+        wrong = bytearray(good)
+        wrong[at] ^= 1 << bit
+        cases.append((bytes(wrong), "damaged"))
+    for k in range(10):
+        cases.append((good[: random.randrange(600, len(good))], "cut off"))
+    cases.append((good + b"more", "cut off or added to"))
+
+    def relabelled(old, new):
+        text = head[:400].replace(old, new)
+        assert text != head[:400] and len(text) == 400
+        return text + fletcher(text) + head[416:] + rest
+
+    cases.append((relabelled(b"format    1", b"format    9"), "its format is 9"))
+    version = re.search(rb"version (\S+)", head).group(1)
+    cases.append((relabelled(version, b"0" * len(version)), "of bipact wrote it"))
+    cases.append((relabelled(re.search(rb"deck (\S+)", head).group(1), b"0" * 16), "another deck"))
+    path = os.path.join(TMP, "bad.h5")
+    for data, reason in cases:
+        with open(path, "wb") as file:
+            file.write(data)
+        code, errors, _ = bipact(deck, folder, "--quiet", "--restart", path)
+        check(code == 3 and reason in errors, "expected %s: %d %s" % (reason, code, errors))
+    check(not differences(whole, contents(folder)), "the folder is as it was")
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "nowhere.h5")
+    check(code == 3 and "no such file" in errors, errors)
+    with open(files[-1], "wb") as file:
+        file.write(good[:-7])
+    with open(files[-2], "r+b") as file:
+        file.seek(700)
+        file.write(b"damage")
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+    check(code == 0, "latest: %s" % errors)
+    check(not differences(whole, contents(folder)), "latest: the newest good one")
+    with open(os.path.join(folder, "bipact.log")) as log:
+        text = log.read()
+    check(os.path.basename(files[-3]) in text and "checksum" in text, "the log tells which, and why")
+    code, errors, _ = bipact(deck, os.path.join(TMP, "empty"), "--restart", "latest")
+    check(code == 3 and "no restart file" in errors, errors)
+    with open(os.path.join(folder, "rcforc.tab"), "w") as file:
+        file.write("short\n")
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+    check(code == 3 and "lost rows" in errors, errors)
+
+
+def limited(bytes_of_file=None, bytes_of_memory=None):
+    """Limits of a child: a write beyond the first fails as on a full disk."""
+
+    def set_limits():
+        if bytes_of_file:
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_of_file, bytes_of_file))
+        if bytes_of_memory:
+            resource.setrlimit(resource.RLIMIT_AS, (bytes_of_memory, bytes_of_memory))
+
+    return set_limits
+
+
+def starved(deck, folder, *options, **limits):
+    done = subprocess.run(
+        [BIPACT, deck, "-o", folder, "--quiet"] + list(options),
+        capture_output=True,
+        text=True,
+        preexec_fn=limited(**limits),
+    )
+    return done.returncode, done.stderr
+
+
+def one_message(code, errors, words, what):
+    """Exit 3, one message with these words."""
+    check(code == 3 and words in errors, "%s: %d %s" % (what, code, errors))
+    check(errors.count("bipact: ") == 1, "%s: one message: %s" % (what, errors))
+
+
+def whole_rows(folder):
+    """No table ends within a row."""
+    for path in glob.glob(os.path.join(folder, "*.tab")):
+        with open(path, "rb") as file:
+            lines = file.read().split(b"\n")
+        rows = [len(line) for line in lines if line and not line.startswith(b"#")]
+        check(len(set(rows)) <= 1, "%s: whole rows" % os.path.basename(path))
+
+
+def faults():
+    """Disk full (a limit on the size of files), folders read-only or gone, files that cannot be
+    made, memory: one message, exit 3, whole rows only, and the last restart file still good."""
+    folder = os.path.join(TMP, "faults")
+    cards = RESTART % (20, "", 9)
+    text = scene("friction")
+    deck = write_deck("tables", text)
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    largest = max(os.path.getsize(p) for p in glob.glob(os.path.join(folder, "*.tab")))
+    shutil.rmtree(folder)
+    code, errors = starved(deck, folder, bytes_of_file=largest // 2)
+    one_message(code, errors, "cannot write", "disk full, tables")
+    deck = write_deck("restarts", with_cards(text, cards))
+    bipact(deck, folder, "--quiet")
+    whole = contents(folder)
+    size = os.path.getsize(restart_files(folder)[0])
+    if size > largest:
+        code, errors = starved(deck, folder, bytes_of_file=size // 2)
+        one_message(code, errors, "cannot write", "disk full, restart file")
+        check(not restart_files(folder), "disk full: no half restart file")
+        check(not os.path.exists(os.path.join(folder, "restart.tmp")), "nor what was to become it")
+    deck_f = write_deck("fields", with_cards(text, RESTART % (20, "", 9) + EVERY_FIELD % 1e-9))
+    bipact(deck_f, folder, "--quiet")
+    whole_f = contents(folder)
+    code, errors = starved(deck_f, folder, bytes_of_file=max(size, largest) + 20000)
+    if code != 0:
+        one_message(code, errors, "cannot write", "disk full, fields")
+        if restart_files(folder):
+            code, errors, _ = bipact(deck_f, folder, "--quiet", "--restart", "latest")
+            check(code == 0, "after a full disk: %s" % errors)
+            check(not differences(whole_f, contents(folder)), "after a full disk: the same end")
+    full_disk(deck_f, whole_f)
+    gone(folder)
+    unwritable(deck, deck_f, folder, whole)
+    memory(folder)
+
+
+def full_disk(deck, whole):
+    """The same on a small file system, where one can be made."""
+    small = os.path.join(TMP, "small")
+    os.makedirs(small)
+    made = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=600k", "none", small], capture_output=True
+    )
+    if made.returncode:
+        print("note: no small file system can be mounted here: NOT tested on one")
+        return
+    try:
+        folder = os.path.join(small, "run")
+        code, errors, _ = bipact(deck, folder, "--quiet")
+        one_message(code, errors, "cannot write", "small disk")
+        whole_rows(folder)
+        files = restart_files(folder)
+        copy = os.path.join(TMP, "large")
+        shutil.copytree(folder, copy)
+    finally:
+        subprocess.run(["umount", small], check=True)
+    if files:
+        code, errors, _ = bipact(deck, copy, "--quiet", "--restart", "latest")
+        check(code == 0, "from a small disk to a large one: %s" % errors)
+        check(not differences(whole, contents(copy)), "the same end")
+
+
+def gone(folder):
+    """The folder is removed while the run writes to it."""
+    for cards, words in (
+        ("", "was removed while the run wrote it"),
+        (RESTART % (50, "", 2), "cannot"),
+        (EVERY_FIELD % 1.0e-2, "cannot"),
+    ):
+        deck, step = long_run(cards)
+        child = started(deck, folder)
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        code, errors = ended(child)
+        check(code == 3 and words in errors or "removed" in errors, "gone: %d %s" % (code, errors))
+        check(errors.count("bipact: ") == 1, "gone: one message: %s" % errors)
+
+
+def unwritable(deck, deck_fields, folder, whole):
+    """Files and folders in the way."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(os.path.join(folder, "glstat.tab"))
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    one_message(code, errors, "glstat.tab", "a folder in the place of a table")
+    shutil.rmtree(folder)
+    os.makedirs(os.path.join(folder, "fields.000.vtkhdf", "x"))
+    code, errors, _ = bipact(deck_fields, folder, "--quiet")
+    one_message(code, errors, "fields.000.vtkhdf", "a folder in the place of a field file")
+    shutil.rmtree(folder)
+    os.makedirs(os.path.join(folder, "restart.tmp", "x"))
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    one_message(code, errors, "restart.tmp", "a folder in the place of a restart file")
+    shutil.rmtree(folder)
+    bipact(deck, folder, "--quiet")
+    os.remove(os.path.join(folder, "glstat.tab"))
+    os.makedirs(os.path.join(folder, "glstat.tab"))
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+    one_message(code, errors, "glstat.tab", "a table made unwritable before going on")
+    check(len(restart_files(folder)) > 0, "the restart files are still there")
+    with open(os.path.join(TMP, "file"), "w"):
+        pass
+    code, errors, _ = bipact(deck, os.path.join(TMP, "file", "x"), "--quiet")
+    one_message(code, errors, "cannot make or write the folder", "a folder below a file")
+    if os.geteuid() == 0:
+        print("note: the superuser may write everywhere: read-only folders NOT tested")
+        return
+    closed = os.path.join(TMP, "closed")
+    os.makedirs(closed)
+    os.chmod(closed, 0o555)
+    code, errors, _ = bipact(deck, closed, "--quiet")
+    one_message(code, errors, "cannot make or write the folder", "read-only folder")
+    shutil.rmtree(folder)
+    deck_long, step = long_run(RESTART % (50, "", 2))
+    child = started(deck_long, folder)
+    os.chmod(folder, 0o555)
+    code, errors = ended(child)
+    os.chmod(folder, 0o755)
+    one_message(code, errors, "cannot", "a folder closed during the run")
+
+
+def memory(folder):
+    """Not enough memory for the scene."""
+    if "sanitize" in BIPACT:
+        print("note: the sanitizer needs more memory than the limit: NOT tested")
+        return
+    deck = os.path.join(TMP, "large.k")
+    make_bars.write(deck, nx=400, ny=100)
+    code, errors = starved(deck, folder, bytes_of_memory=60_000_000)
+    one_message(code, errors, "not enough memory", "memory")
+
+
+if __name__ == "__main__":
+    if not os.path.exists(HDF5):
+        print("%s is not built: restarts NOT tested" % HDF5)
+        sys.exit(77)
+    globals()[sys.argv[1]]()
+    finish()
