@@ -7,6 +7,7 @@ module base_files
   use base_status, only: status_t, fail, status_file
   implicit none
   private
+  public :: open_text, close_text
   public :: file_exists, file_size, move_file, remove_file, cut_file, sync_file, list_files
 
   !> Long enough for every name that list_files gives.
@@ -38,6 +39,12 @@ module base_files
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int), value, intent(in) :: flags
     end function c_open
+    integer(c_long) function c_lseek(descriptor, offset, from) bind(c, name='lseek')
+      import :: c_int, c_long
+      integer(c_int), value, intent(in) :: descriptor
+      integer(c_long), value, intent(in) :: offset
+      integer(c_int), value, intent(in) :: from
+    end function c_lseek
     integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
       import :: c_int
       integer(c_int), value, intent(in) :: descriptor
@@ -70,12 +77,42 @@ contains
     inquire (file=path, exist=file_exists)
   end function file_exists
 
-  !> Bytes of a file, -1 where there is none.
+  !> Bytes of a file as the system has them, -1 where there is none. (What INQUIRE tells of a
+  !> file that is open are the bytes it was given, also those that a full disk has lost.)
   integer(i8) function file_size(path)
     character(*), intent(in) :: path
+    integer(c_int) :: descriptor, ignored
     file_size = -1_i8
-    if (file_exists(path)) inquire (file=path, size=file_size)
+    descriptor = c_open(path//c_null_char, 0_c_int)
+    if (descriptor < 0_c_int) return
+    file_size = int(c_lseek(descriptor, 0_c_long, 2_c_int), i8)
+    ignored = c_close(descriptor)
   end function file_size
+
+  !> Opens a new text file.
+  subroutine open_text(path, unit, status)
+    character(*), intent(in) :: path
+    integer, intent(out) :: unit
+    type(status_t), intent(inout) :: status
+    character(200) :: reason
+    integer :: ios
+    open (newunit=unit, file=path, access='stream', form='formatted', action='write', &
+        status='replace', iostat=ios, iomsg=reason)
+    if (ios /= 0) call fail(status, status_file, 'cannot write "'//path//'": '//trim(reason))
+  end subroutine open_text
+
+  !> Closes a text file; fails when it is not as long as what was written to it.
+  subroutine close_text(path, unit, status)
+    character(*), intent(in) :: path
+    integer, intent(in) :: unit
+    type(status_t), intent(inout) :: status
+    integer(i8) :: next
+    integer :: ios
+    inquire (unit, pos=next)
+    close (unit, iostat=ios)
+    if (file_size(path) /= next - 1_i8 .or. ios /= 0) call fail(status, status_file, &
+        'cannot write "'//path//'" to its end', hint='is the disk full or the file removed?')
+  end subroutine close_text
 
   !> Renames within a file system, in one stroke: who looks sees the old file or the new one.
   subroutine move_file(old, new, status)

@@ -3,14 +3,15 @@
 !> restart file when SIGUSR1 does.
 !> A handler can only reach a saved variable: this is the one module that has one.
 module base_signal
-  use, intrinsic :: iso_c_binding, only: c_int, c_funptr, c_funloc
+  use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_funptr, c_funloc
   implicit none
   private
-  public :: watch_signals, stop_asked, restart_asked
+  public :: watch_limits, watch_signals, stop_asked, restart_asked
 
   integer(c_int), parameter :: sigint = 2_c_int
   integer(c_int), parameter :: sigterm = 15_c_int
   integer(c_int), parameter :: sigusr1 = 10_c_int   ! on Linux for x86 and ARM
+  integer(c_int), parameter :: sigxfsz = 25_c_int    ! there too
   integer, volatile, save :: received = 0, asked = 0
 
   interface
@@ -22,6 +23,13 @@ module base_signal
   end interface
 
 contains
+
+  !> A file that may not grow any more is a write that fails, not the end of the program.
+  subroutine watch_limits()
+    type(c_funptr) :: old
+    integer(c_intptr_t), parameter :: ignore = 1_c_intptr_t
+    old = c_signal(sigxfsz, transfer(ignore, old))
+  end subroutine watch_limits
 
   !> Installs the handlers; that of SIGUSR1 only where restart files are written.
   subroutine watch_signals(with_restart)

@@ -3,8 +3,9 @@
 !> a head line, d and the number of contacts, then mu, q, r, and W row by row. (The program of
 !> scenes does not carry HDF5, whose start would cost more than many a run.)
 module output_contact
+  use base_files, only: open_text, close_text, remove_file
   use base_kinds, only: wp, zero
-  use base_status, only: status_t, fail, status_file
+  use base_status, only: status_t, failed
   implicit none
   private
   public :: write_contact_problem
@@ -22,11 +23,11 @@ contains
     real(wp), intent(in) :: w(:, :), q(:, :), mu(:), r(:, :)
     type(status_t), intent(inout) :: status
     real(wp) :: row(2*size(mu))
-    character(200) :: reason
     integer :: unit, error, a, i, d
     d = size(q, 1)
-    open (newunit=unit, file=path, action='write', status='replace', iostat=error, iomsg=reason)
-    if (error == 0) write (unit, '(a)', iostat=error) problem_head//', '//title
+    call open_text(path, unit, status)
+    if (failed(status)) return
+    write (unit, '(a)', iostat=error) problem_head//', '//title
     if (error == 0) write (unit, '(2(i0,1x))', iostat=error) 2, size(mu)
     do a = 1, size(mu)
       if (error == 0) write (unit, '(5es25.16e3)', iostat=error) mu(a), padded(q(:, a)), &
@@ -45,12 +46,8 @@ contains
         if (error == 0) write (unit, '(*(es25.16e3))', iostat=error) row
       end do
     end do
-    if (error == 0) then
-      close (unit)
-      return
-    end if
-    close (unit, status='delete', iostat=i)
-    call fail(status, status_file, 'cannot write "'//path//'": '//trim(reason))
+    call close_text(path, unit, status)
+    if (failed(status)) call remove_file(path)
   end subroutine write_contact_problem
 
   pure function padded(x) result(pair)

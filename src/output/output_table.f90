@@ -20,6 +20,7 @@ module output_table
     integer :: unit = -1
     integer :: filled = 0
     integer(i8) :: written = 0_i8 !< bytes on file
+    integer(i8) :: whole = 0_i8   !< those before the last of them: whole rows
     character(:), allocatable :: path
     character(:), allocatable :: buffer
   end type table_file_t
@@ -154,18 +155,28 @@ contains
     call end_row(table)
   end subroutine add_line
 
-  !> Writes the rows that are held.
+  !> Writes the rows that are held; what did not get to the file whole is taken back.
   subroutine write_out(table, status)
     type(table_file_t), intent(inout) :: table
     type(status_t), intent(inout) :: status
     character(200) :: reason
+    integer(i8) :: there
     integer :: ios
     write (table%unit, iostat=ios, iomsg=reason) table%buffer(1:table%filled)
     if (ios == 0) flush (table%unit, iostat=ios, iomsg=reason)
+    table%whole = table%written
     table%written = table%written + table%filled
     table%filled = 0
-    if (ios /= 0) &
-        call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))
+    if (ios == 0) then
+      there = file_size(table%path)
+      if (there >= 0_i8 .and. there < table%written) ios = 1
+      reason = 'is the disk full?'
+    end if
+    if (ios == 0) return
+    call fail(status, status_file, 'cannot write "'//table%path//'": '//trim(reason))
+    table%on = .false.
+    close (table%unit, iostat=ios)
+    call cut_file(table%path, table%whole, status)
   end subroutine write_out
 
   !> Writes what is left and the closing line "# end: done | failed | stopped, cycle N".
@@ -178,6 +189,7 @@ contains
     if (table%filled + 256 > buffer_size) call write_out(table, status)
     call add_line(table, '# end: '//ending//', cycle '//to_text(cycle))
     call write_out(table, status)
+    if (.not. table%on) return
     close (table%unit)
     table%on = .false.
     if (.not. file_exists(table%path)) call fail(status, status_file, '"'//table%path// &

@@ -2,9 +2,9 @@
 !> A small XDMF file that shows the frames of all field files as one series in time, for readers
 !> that know no VTKHDF. It holds no numbers but the times: the rest is in the HDF5 files.
 module output_xdmf
-  use base_files, only: move_file
+  use base_files, only: move_file, file_size
   use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
-  use base_kinds, only: wp
+  use base_kinds, only: wp, i8
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path, to_text
   use output_fields, only: fields_t
@@ -23,7 +23,8 @@ module output_xdmf
   !> Text that is gathered and written many lines at a time.
   type :: text_t
     integer :: unit = -1, ios = 0, filled = 0
-    character(200) :: reason = ''
+    integer(i8) :: written = 0_i8
+    character(200) :: reason = 'is the disk full?'
     character(:), allocatable :: buffer, mesh
     type(template_t), allocatable :: template(:)
     type(real_writer_t) :: writer
@@ -72,6 +73,9 @@ contains
     end do
     call add(text, '</Grid></Domain></Xdmf>'//new_line('a'))
     call close_text(text)
+    if (text%ios == 0) then
+      if (file_size(path//'.tmp') < text%written) text%ios = 1
+    end if
     if (text%ios /= 0) &
         call fail(status, status_file, 'cannot write "'//path//'": '//trim(text%reason))
     if (.not. failed(status)) call move_file(path//'.tmp', path, status)
@@ -143,6 +147,7 @@ contains
     if (text%filled + len(part) > text_size) call put(text)
     if (len(part) > text_size) then
       if (text%ios == 0) write (text%unit, iostat=text%ios, iomsg=text%reason) part
+      text%written = text%written + len(part)
       return
     end if
     text%buffer(text%filled + 1:text%filled + len(part)) = part
@@ -169,6 +174,7 @@ contains
     type(text_t), intent(inout) :: text
     if (text%ios == 0) &
         write (text%unit, iostat=text%ios, iomsg=text%reason) text%buffer(:text%filled)
+    text%written = text%written + text%filled
     text%filled = 0
   end subroutine put
 

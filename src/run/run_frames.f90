@@ -4,7 +4,7 @@
 module run_frames
   use base_files, only: list_files, remove_file, path_length
   use base_kinds, only: wp
-  use base_status, only: status_t
+  use base_status, only: status_t, failed
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
   use output_fields, only: make_fields, make_mesh, fill_fields, frame_is_due, next_frame
@@ -39,6 +39,7 @@ contains
     if (.not. first) &
         first = run%fields%segment_of(run%fields%frames) /= run%fields%segment
     if (first) call open_segment(run, status)
+    if (failed(status)) return
     call run%storage%add_frame(run%state%time, run%fields%field, status)
     call next_frame(run%model, run%state%time, run%scheme%h, run%fields)
     call run%timers%enter(phase_other)

@@ -6,7 +6,7 @@ module run_program
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use base_files, only: file_size
   use base_kinds, only: i8
-  use base_signal, only: watch_signals
+  use base_signal, only: watch_limits, watch_signals
   use base_status, only: status_t, fail, failed, status_text, status_ok, status_stopped, &
       status_file
   use base_strings, only: stem_of
@@ -38,6 +38,7 @@ contains
     type(arguments_t) :: arguments
     type(run_t), allocatable :: run
     type(status_t) :: status
+    call watch_limits()
     allocate (run)
     call move_alloc(storage, run%storage)
     call run%timers%start()

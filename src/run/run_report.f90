@@ -2,8 +2,9 @@
 !> The log, the echo deck and the closing summary.
 module run_report
   use, intrinsic :: iso_fortran_env, only: output_unit
+  use base_files, only: open_text, close_text
   use base_kinds, only: wp, zero, i8
-  use base_status, only: status_t, fail, failed, status_text, status_file
+  use base_status, only: status_t, failed, status_text
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
@@ -25,7 +26,7 @@ contains
     call open_text(join_path(run%folder, 'deck.echo.k'), unit, status)
     if (failed(status)) return
     call write_echo(run%deck, unit)
-    close (unit)
+    call close_text(join_path(run%folder, 'deck.echo.k'), unit, status)
     call open_text(join_path(run%folder, 'bipact.log'), run%log_unit, status)
     if (failed(status)) return
     write (run%log_unit, '(a)') 'bipact '//version
@@ -39,16 +40,6 @@ contains
         run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)// &
         ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications'
   end subroutine open_log
-
-  subroutine open_text(path, unit, status)
-    character(*), intent(in) :: path
-    integer, intent(out) :: unit
-    type(status_t), intent(inout) :: status
-    character(200) :: reason
-    integer :: ios
-    open (newunit=unit, file=path, action='write', status='replace', iostat=ios, iomsg=reason)
-    if (ios /= 0) call fail(status, status_file, 'cannot write "'//path//'": '//trim(reason))
-  end subroutine open_text
 
   !> The scene plan: size, scheme, features with their reasons.
   subroutine write_plan(run, unit)
@@ -68,7 +59,7 @@ contains
   !> Notes, warnings and the closing summary into the log, the summary on the screen too.
   subroutine close_log(run, ending)
     type(run_t), intent(inout) :: run
-    type(status_t), intent(in) :: ending
+    type(status_t), intent(inout) :: ending
     integer :: k
     call collect_warnings(run)
     do k = 1, run%deck%problems%note_count
@@ -80,7 +71,7 @@ contains
     if (failed(ending)) write (run%log_unit, '(a)') 'FAILED '//status_text(ending)
     call write_summary(run, run%log_unit)
     call write_phases(run, run%log_unit)
-    close (run%log_unit)
+    call close_text(join_path(run%folder, 'bipact.log'), run%log_unit, ending)
     if (run%quiet) return
     call write_summary(run, output_unit)
   end subroutine close_log
