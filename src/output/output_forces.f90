@@ -16,17 +16,17 @@ module output_forces
 contains
 
   !> Sums of each side of each contact of bodies.
-  subroutine write_rcforc(file, writer, contact, time, h, status)
+  subroutine write_rcforc(file, writer, contact, time, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(contact_t), intent(in) :: contact
-    real(wp), intent(in) :: time, h
+    real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     integer :: p, s
     do p = 1, size(contact%pair)
       if (contact%pair(p)%is_wall) cycle
       do s = 1, 2
-        call begin_row(file, time, h, status)
+        call begin_row(file, status)
         call add_number(file, writer, time)
         call add_count(file, contact%pair(p)%id)
         call add_count(file, s)
@@ -36,16 +36,16 @@ contains
   end subroutine write_rcforc
 
   !> Sums of the forces on the bodies at each wall.
-  subroutine write_rwforc(file, writer, contact, time, h, status)
+  subroutine write_rwforc(file, writer, contact, time, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(contact_t), intent(in) :: contact
-    real(wp), intent(in) :: time, h
+    real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     integer :: p
     do p = 1, size(contact%pair)
       if (.not. contact%pair(p)%is_wall) cycle
-      call begin_row(file, time, h, status)
+      call begin_row(file, status)
       call add_number(file, writer, time)
       call add_count(file, contact%pair(p)%id)
       call add_sums(file, writer, contact%pair(p), 1)
@@ -70,18 +70,18 @@ contains
 
   !> One row for the whole coupled problem (id 0), one per contact; the solver's figures are
   !> those of the coupled problem in every row.
-  subroutine write_sleout(file, writer, contact, time, h, status)
+  subroutine write_sleout(file, writer, contact, time, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: time, h
+    real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     integer :: p
     do p = 0, size(contact%pair)
       if (p > 0) then
         if (contact%pair(p)%is_wall) cycle
       end if
-      call begin_row(file, time, h, status)
+      call begin_row(file, status)
       call add_number(file, writer, time)
       if (p == 0) then
         call add_count(file, 0)
@@ -107,12 +107,12 @@ contains
   end subroutine write_sleout
 
   !> Nodes that are listed, or were pressed in this step or the last.
-  subroutine write_ncforc(file, writer, model, contact, time, h, status)
+  subroutine write_ncforc(file, writer, model, contact, time, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(model_t), intent(in) :: model
     type(contact_t), intent(in) :: contact
-    real(wp), intent(in) :: time, h
+    real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     real(wp) :: pressure
     integer :: p, k
@@ -123,7 +123,7 @@ contains
           if (c%gap(k) >= no_gap .and. .not. any(abs(c%before(:, k)) > zero)) cycle
           pressure = zero
           if (c%area(k) > zero) pressure = c%normal(k)/c%area(k)
-          call begin_row(file, time, h, status)
+          call begin_row(file, status)
           call add_number(file, writer, time)
           call add_count(file, contact%pair(p)%id)
           call add_count(file, c%side(k))
@@ -138,17 +138,17 @@ contains
   end subroutine write_ncforc
 
   !> Every node that is held in some direction by a support or by a motion that acts now.
-  subroutine write_spcforc(file, writer, model, held, reaction, time, h, status)
+  subroutine write_spcforc(file, writer, model, held, reaction, time, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(model_t), intent(in) :: model
     logical, intent(in) :: held(:, :)
-    real(wp), intent(in) :: reaction(:, :), time, h
+    real(wp), intent(in) :: reaction(:, :), time
     type(status_t), intent(inout) :: status
     integer :: k
     do k = 1, model%nodes
       if (.not. any(held(:, k))) cycle
-      call begin_row(file, time, h, status)
+      call begin_row(file, status)
       call add_number(file, writer, time)
       call add_count(file, model%node_id(k))
       call add_numbers(file, writer, [reaction(:, k), zero])

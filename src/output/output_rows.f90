@@ -29,7 +29,7 @@ contains
     type(ledger_t), intent(in) :: ledger
     real(wp), intent(in) :: h
     type(status_t), intent(inout) :: status
-    call begin_row(file, state%time, h, status)
+    call begin_row(file, status)
     call add_number(file, writer, state%time)
     call add_count(file, state%cycle)
     call add_numbers(file, writer, &
@@ -41,17 +41,16 @@ contains
   end subroutine write_glstat
 
   !> Energies and momentum of each part.
-  subroutine write_matsum(file, writer, model, state, ledger, h, status)
+  subroutine write_matsum(file, writer, model, state, ledger, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     type(ledger_t), intent(in) :: ledger
-    real(wp), intent(in) :: h
     type(status_t), intent(inout) :: status
     integer :: p
     do p = 1, size(model%part)
-      call begin_row(file, state%time, h, status)
+      call begin_row(file, status)
       call add_number(file, writer, state%time)
       call add_count(file, model%part(p)%id)
       call add_numbers(file, writer, [ledger%part_mass(p), ledger%part_kinetic(p), &
@@ -62,12 +61,11 @@ contains
   end subroutine write_matsum
 
   !> Motion of the history nodes.
-  subroutine write_nodout(file, writer, model, state, h, status)
+  subroutine write_nodout(file, writer, model, state, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
-    real(wp), intent(in) :: h
     type(status_t), intent(inout) :: status
     real(wp) :: mean(2)
     integer :: k, i
@@ -75,7 +73,7 @@ contains
       i = model%requests%history_node(k)
       mean = state%v(:, i)
       if (state%cycle > 0) mean = state%du(:, i)/state%h_last
-      call begin_row(file, state%time, h, status)
+      call begin_row(file, status)
       call add_number(file, writer, state%time)
       call add_count(file, model%node_id(i))
       call add_numbers(file, writer, [state%u(:, i), zero, state%v(:, i), zero, mean, zero, &
@@ -86,13 +84,12 @@ contains
   end subroutine write_nodout
 
   !> Stress (mean over the Gauss points) and strain energy of the history elements.
-  subroutine write_elout(file, writer, model, system, state, h, status)
+  subroutine write_elout(file, writer, model, system, state, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
-    real(wp), intent(in) :: h
     type(status_t), intent(inout) :: status
     class(element_t), allocatable :: element
     real(wp) :: stress(3)
@@ -106,7 +103,7 @@ contains
         associate (material => model%material(part%material)%item)
           stress = matmul(material%moduli(part%plane), &
               element%mean_strain(model%x(:, corner), state%u(:, corner)))
-          call begin_row(file, state%time, h, status)
+          call begin_row(file, status)
           call add_number(file, writer, state%time)
           call add_count(file, model%element_id(e))
           call add_count(file, part%id)
@@ -120,20 +117,19 @@ contains
   end subroutine write_elout
 
   !> Seconds by phase, counts.
-  subroutine write_timing(file, writer, state, timers, factors, solves, sweeps, h, status)
+  subroutine write_timing(file, writer, state, timers, factors, solves, sweeps, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
     type(state_t), intent(in) :: state
     type(timers_t), intent(in) :: timers
     integer, intent(in) :: factors, solves, sweeps
-    real(wp), intent(in) :: h
     type(status_t), intent(inout) :: status
     integer, parameter :: phase(7) = [phase_input, phase_assemble, phase_factor, phase_solve, &
         phase_search, phase_contact, phase_output]
     real(wp) :: cpu
     integer :: k
     call cpu_time(cpu)
-    call begin_row(file, state%time, h, status)
+    call begin_row(file, status)
     call add_number(file, writer, state%time)
     call add_count(file, state%cycle)
     call add_number(file, writer, cpu)

@@ -25,7 +25,7 @@ module output_table
     character(:), allocatable :: buffer
   end type table_file_t
 
-  public :: open_table, row_is_due, begin_row, add_number, add_count, end_row, &
+  public :: open_table, row_is_due, rows_done, begin_row, add_number, add_count, end_row, &
       close_table, write_out, reopen_table
 
 contains
@@ -104,17 +104,21 @@ contains
     if (row_is_due) row_is_due = time >= table%next*table%interval - 1.0e-9_wp*h
   end function row_is_due
 
-  !> Starts a row; at the end of a run `last` makes it due whatever the time. Sets when the next
-  !> is due.
-  subroutine begin_row(table, time, h, status)
+  !> Sets when the next row is due after those of a time, which may have been none.
+  subroutine rows_done(table, time, h)
     type(table_file_t), intent(inout) :: table
     real(wp), intent(in) :: time, h
-    type(status_t), intent(inout) :: status
     if (table%interval > 1.0e-6_wp*h) then
       table%next = aint((time + 1.0e-9_wp*h)/table%interval) + 1.0_wp
     else
       table%next = zero           ! every step; the quotient might overflow
     end if
+  end subroutine rows_done
+
+  !> Starts a row.
+  subroutine begin_row(table, status)
+    type(table_file_t), intent(inout) :: table
+    type(status_t), intent(inout) :: status
     if (table%filled + 1024 > buffer_size) call write_out(table, status)
   end subroutine begin_row
 

@@ -4,7 +4,7 @@ module run_tables
   use base_status, only: status_t
   use output_forces, only: write_rcforc, write_rwforc, write_sleout, write_ncforc, write_spcforc
   use output_rows, only: write_glstat, write_matsum, write_nodout, write_elout, write_timing
-  use output_table, only: row_is_due
+  use output_table, only: row_is_due, rows_done
   use output_tables, only: table_glstat, table_matsum, table_nodout, table_elout, &
       table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing
   use run_data, only: run_t
@@ -24,6 +24,7 @@ contains
       if (.not. run%tables%file(k)%on) cycle
       if (.not. (last .or. row_is_due(run%tables%file(k), run%state%time, run%scheme%h))) cycle
       call write_one(run, k, status)
+      call rows_done(run%tables%file(k), run%state%time, run%scheme%h)
     end do
   end subroutine write_rows
 
@@ -37,25 +38,25 @@ contains
       case (table_glstat)
         call write_glstat(file, writer, state, run%ledger, h, status)
       case (table_matsum)
-        call write_matsum(file, writer, model, state, run%ledger, h, status)
+        call write_matsum(file, writer, model, state, run%ledger, status)
       case (table_nodout)
-        call write_nodout(file, writer, model, state, h, status)
+        call write_nodout(file, writer, model, state, status)
       case (table_elout)
-        call write_elout(file, writer, model, run%system, state, h, status)
+        call write_elout(file, writer, model, run%system, state, status)
       case (table_rcforc)
-        call write_rcforc(file, writer, run%contact, time, h, status)
+        call write_rcforc(file, writer, run%contact, time, status)
       case (table_rwforc)
-        call write_rwforc(file, writer, run%contact, time, h, status)
+        call write_rwforc(file, writer, run%contact, time, status)
       case (table_sleout)
-        call write_sleout(file, writer, run%contact, time, h, status)
+        call write_sleout(file, writer, run%contact, time, status)
       case (table_spcforc)
         call write_spcforc(file, writer, model, run%system%fixed, run%mean_reaction, &
-            time, h, status)
+            time, status)
       case (table_ncforc)
-        call write_ncforc(file, writer, model, run%contact, time, h, status)
+        call write_ncforc(file, writer, model, run%contact, time, status)
       case (table_timing)
         call write_timing(file, writer, state, run%timers, run%factors, run%solves, &
-            run%contact%sweeps, h, status)
+            run%contact%sweeps, status)
       end select
     end associate
   end subroutine write_one
