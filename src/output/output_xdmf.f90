@@ -229,7 +229,7 @@ contains
     case (3)
       text = 'Vector'
     case default
-      text = 'Tensor6'
+      text = 'Matrix'     ! a Tensor6 of XDMF has another order of components
     end select
   end function kind_of
 

@@ -1,0 +1,146 @@
+"""Field files as VTK and PyVista see them: VTKHDF file by file, XDMF over all of them, a large
+scene by PyVista. The numbers are those that h5py reads."""
+
+import os
+import re
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+from scenes import BIPACT, TMP, bipact, check, finish, make_bars, run_text, show, within
+
+import fields
+
+try:
+    import pyvista
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as error:
+    print("VTK cannot be loaded here (%s): field files were NOT read by it" % error)
+    sys.exit(77)
+
+KIND = {"Point": "GetPointData", "Cell": "GetCellData"}
+
+
+def fields_run(name, cards, **options):
+    """Runs two bars with some cards more; the folder and its fields."""
+    path = os.path.join(TMP, name + ".k")
+    make_bars.write(path, **options)
+    with open(path) as file:
+        text = file.read().replace("*END", cards + "*END")
+    folder, code, errors = run_text(name, text)
+    check(code == 0, errors)
+    return folder, fields.Fields(folder)
+
+
+def compare(output, run, k, what):
+    """A grid of VTK against frame k."""
+    points = vtk_to_numpy(output.GetPoints().GetData())
+    check(np.array_equal(points, run.points), what + ": points")
+    wrong = 0
+    for c, corners in enumerate(run.cells):
+        ids = output.GetCell(c).GetPointIds()
+        wrong += [ids.GetId(i) for i in range(ids.GetNumberOfIds())] != corners.tolist()
+    check(output.GetNumberOfCells() == len(run.cells) and not wrong, what + ": cells")
+    for name, kind in run.names.items():
+        array = getattr(output, KIND[kind])().GetArray(name)
+        check(array is not None, "%s: %s is there" % (what, name))
+        if array is not None:
+            values = vtk_to_numpy(array).reshape(run.frame(k, name).shape)
+            check(
+                np.array_equal(values, run.frame(k, name), equal_nan=True),
+                "%s: %s of frame %d" % (what, name, k),
+            )
+
+
+def vtkhdf(run, what):
+    """Every step of every file by vtkHDFReader."""
+    k = 0
+    for path in run.paths:
+        reader = vtk.vtkHDFReader()
+        reader.SetFileName(path)
+        reader.UpdateInformation()
+        steps = reader.GetNumberOfSteps()
+        for step in range(steps):
+            reader.SetStep(step)
+            reader.Update()
+            check(abs(reader.GetTimeValue() - run.times[k]) == 0.0, what + ": time")
+            compare(reader.GetOutput(), run, k, what + ", VTKHDF")
+            k += 1
+    check(k == len(run.times), "%s: %d of %d frames" % (what, k, len(run.times)))
+
+
+def xdmf(folder, run, what):
+    """The series over all files, by the reader of VTK."""
+    reader = vtk.vtkXdmfReader()
+    reader.SetFileName(os.path.join(folder, "fields.xdmf"))
+    reader.UpdateInformation()
+    key = vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    times = reader.GetOutputInformation(0).Get(key)
+    check(np.array_equal(times, run.times), what + ": XDMF, times")
+    for k in range(0, len(run.times), max(1, len(run.times) // 5)):
+        reader.UpdateTimeStep(run.times[k])
+        compare(reader.GetOutputDataObject(0), run, k, what + ", XDMF")
+
+
+def main():
+    every = "*BIPACT_FIELD\n%10.3e\n       ALL\n"
+    restart = "*BIPACT_RESTART\n%10d\n"
+    folder, run = fields_run("bars", every % 1e-9 + restart % 10, nx=6, ny=2, courant=0.5)
+    check(len(run.paths) > 2, "segments at restart points")
+    vtkhdf(run, "bars")
+    xdmf(folder, run, "bars")
+    triangles()
+    pyvista_large()
+
+
+def triangles():
+    """Triangles and quadrilaterals in one mesh."""
+    with open(os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")) as file:
+        text = file.read()
+    text = re.sub(r"(?s)\*BIPACT_(FIELD|RESTART).*?(?=\n\*)", "$", text)
+    text = text.replace("*END", "*BIPACT_FIELD\n     0.002\n         U    STRESS      PART\n*END")
+    folder, code, errors = run_text("mixed", text)
+    check(code == 0, "mixed: " + errors)
+    run = fields.Fields(folder)
+    check({len(c) for c in run.cells} == {3, 4}, "mixed: both kinds")
+    vtkhdf(run, "mixed")
+    xdmf(folder, run, "mixed")
+
+
+def pyvista_large():
+    """2e5 dofs, 100 frames of U: the size of the file is that of its numbers within 10 %, and
+    PyVista opens it and moves through time."""
+    path = os.path.join(TMP, "large.k")
+    meta = make_bars.write(path, nx=500, ny=100, courant=1.0, tend=100 * 2.0e-5)
+    with open(path) as file:
+        text = file.read()
+    card = "*BIPACT_FIELD\n%10.3e                            32\n         U\n" % 1e-9
+    folder, code, errors = run_text("large", text.replace("*END", card + "*END"))
+    check(code == 0, errors)
+    run = fields.Fields(folder)
+    dofs = 2 * len(run.points)
+    raw = len(run.times) * len(run.points) * 3 * 4
+    size = sum(os.path.getsize(p) for p in run.paths)
+    show("%d dofs, %d frames, %.0f MB" % (dofs, len(run.times), size / 1e6))
+    check(dofs > 2e5 and len(run.times) >= 100, "%d dofs, %d frames" % (dofs, len(run.times)))
+    mesh = run.points.nbytes + 8 * (sum(len(c) for c in run.cells) + len(run.cells) + 1)
+    within(size / (raw + mesh + len(run.cells)), 1.0, 1.1, "size / numbers")
+    reader = pyvista.get_reader(os.path.join(folder, "fields.xdmf"))
+    check(len(reader.time_values) == len(run.times), "PyVista: %d times" % len(reader.time_values))
+    k = len(run.times) // 2
+    reader.set_active_time_value(reader.time_values[k])
+    grid = reader.read()
+    if isinstance(grid, pyvista.MultiBlock):
+        grid = grid[0]
+    check(np.array_equal(grid.point_data["U"], run.frame(k, "U")), "PyVista: U in the middle")
+    check(grid.n_cells == len(run.cells), "PyVista: %d cells" % grid.n_cells)
+
+
+if __name__ == "__main__":
+    if not os.path.exists(BIPACT.replace("bin/bipact", "bin/bipact-hdf5")):
+        print("bipact-hdf5 is not built: field files NOT tested")
+        sys.exit(77)
+    main()
+    finish()
