@@ -116,7 +116,12 @@ SCENE = (
             "NCFORC",
         )
     ]
-    + [("BIPACT_TIMING", [{"DT": 0.01}])]
+    + [
+        ("BIPACT_TIMING", [{"DT": 0.01}]),
+        ("BIPACT_FIELD", [{"DT": 0.005, "PREC": 32}, {"NAME1": "U", "NAME2": "STRESS"}]),
+        ("BIPACT_RESTART", [{"NSTEP": 100, "KEEP": 2}]),
+        ("DATABASE_BINARY_D3PLOT", [{"DT": 0.01, "PSETID": 1}]),
+    ]
 )
 PARAMETERS = [
     ("Rtend", "0.02"),
