@@ -2,8 +2,8 @@
 """Run the two-bar impact with each scheme, compare with the exact solution, draw the figures.
 
 Needs bin/bipact and the decks input/two_bars/newmark.k, theta.k, theta_dispersion.k.  Writes
-demo.out/NAME/ (the run directories) and demo.out/*.png: figures 1-4 of the paper and the
-contact force.  Exit code 1 if a run or a comparison fails.
+demo.out/NAME/ (the run directories) and demo.out/*.png: figures 1-4 of the paper, the
+contact force, and the waves over x and t (of waves.k, where HDF5 is there).  Exit code 1 if a run or a comparison fails.
 """
 
 import argparse
@@ -129,6 +129,29 @@ def draw_all(results, out):
     return list(zip(paths, text))
 
 
+def draw_waves(a):
+    """The velocity over x and t, from field files: [(path, what to look for)]."""
+    if not os.path.exists(os.path.join(os.path.dirname(a.bin), "bipact-hdf5")):
+        print("bipact-hdf5 is not built (no HDF5 for Fortran): no picture of the waves")
+        return []
+    from fields import Fields
+    from plot_fields import Picture, over_x_and_t
+
+    directory = os.path.join(a.out, "waves")
+    run_deck(a.bin, os.path.join(a.decks, "waves.k"), directory)
+    title = "two bars: velocity over place and time"
+    path = over_x_and_t(
+        Picture(Fields(directory), "V:x"), os.path.join(a.out, "waves.png"), title
+    )
+    return [
+        (
+            path,
+            "The bars meet; a wave brings each to rest, comes back from the free ends and sets "
+            "them free with exchanged velocities.",
+        )
+    ]
+
+
 def main(argv=None):
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -144,7 +167,7 @@ def main(argv=None):
     try:
         results = run_all(a)
         print_table(results)
-        figures = draw_all(results, a.out)
+        figures = draw_all(results, a.out) + draw_waves(a)
     except Exception as problem:  # whatever fails, the demo fails with one clear message
         print("demo failed: %s" % problem, file=sys.stderr)
         return 1
