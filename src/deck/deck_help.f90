@@ -13,19 +13,21 @@ contains
   !> The command line.
   subroutine write_usage(unit)
     integer, intent(in) :: unit
-    character(80), parameter :: line(16) = [character(80) :: &
-      'bipact DECK [-o DIR] [-D name=value]... [--check | --plan] [--quiet]', &
+    character(80), parameter :: line(18) = [character(80) :: &
+      'bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--check | --plan]', &
+      '       [--quiet]', &
       'bipact --keywords | --help | --version', '', &
       '  DECK            input deck (a subset of the LS-DYNA keyword format)', &
       '  -o DIR          folder of the results; default: DECK''s name with .out', &
       '  -D name=value   replaces the value of a *PARAMETER of the deck', &
+      '  --restart FILE  goes on from a restart file; latest: the newest good one of DIR', &
       '  --check         reads and checks the deck; writes no file', &
       '  --plan          prints what the scene needs; writes no file', &
       '  --quiet         no summary and no progress line', &
       '  --keywords      lists the keywords, their cards and fields', '', &
       'exit code: 0 done, 1 numerical failure, 2 deck error, 3 file or system error,', &
       '           4 stopped by a signal', '', &
-      'Results: tables NAME.tab as the deck asks, bipact.log, deck.echo.k.', '']
+      'Results as the deck asks: tables, field files, restart files; log, deck.echo.k.', '']
     integer :: k
     do k = 1, size(line) - 1
       write (unit, '(a)') trim(line(k))
