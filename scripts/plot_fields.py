@@ -187,7 +187,9 @@ def main(argv=None):
     try:
         picture = Picture(Fields(a.run), a.field)
     except FileNotFoundError as problem:
-        print("plot_fields: %s; *BIPACT_FIELD makes a run write them" % problem, file=sys.stderr)
+        print(
+            "plot_fields: %s; *BIPACT_FIELD makes a run write them" % problem, file=sys.stderr
+        )
         return 1
     kind = "xt" if a.xt else "animation" if a.animate else "snapshots"
     name = "%s_%s.%s" % (kind, a.field.replace(":", "_"), "gif" if a.animate else "png")

@@ -20,7 +20,7 @@ contains
       '  DECK            input deck (a subset of the LS-DYNA keyword format)', &
       '  -o DIR          folder of the results; default: DECK''s name with .out', &
       '  -D name=value   replaces the value of a *PARAMETER of the deck', &
-      '  --restart FILE  goes on from a restart file; latest: the newest good one of DIR', &
+      '  --restart FILE  goes on from a restart file; latest: the newest good one', &
       '  --check         reads and checks the deck; writes no file', &
       '  --plan          prints what the scene needs; writes no file', &
       '  --quiet         no summary and no progress line', &

@@ -131,7 +131,10 @@ def contact_fields(run, ncforc, nodes):
     check(np.array_equal(force, run.history("FORCE")), "FORCE")
     check(np.array_equal(pressure, run.history("PRESSURE")), "PRESSURE")
     check(np.array_equal(gap, run.history("GAP"), equal_nan=True), "GAP")
-    check(np.array_equal(np.maximum(status, np.where(surface, 0, -1)), run.history("STATUS")), "STATUS")
+    check(
+        np.array_equal(np.maximum(status, np.where(surface, 0, -1)), run.history("STATUS")),
+        "STATUS",
+    )
     check((surface == surface[0]).all() and not surface.all(), "surfaces stay the same")
     total = run.history("FORCE").sum(axis=1)
     at_most(np.abs(total).max(), 1e-12 * np.abs(force).max(), "forces of both sides cancel")
@@ -154,7 +157,10 @@ def options():
     check(code == 0 and sorted(run.names) == ["PART", "U"], "names: %s" % sorted(run.names))
     check(run.times[0] >= 0.3 * end - dt * 1e-6, "TBEG")
     at = len(whole.times) - len(run.times)
-    check(np.array_equal(run.history("U"), whole.history("U")[at:]), "compressed: the same numbers")
+    check(
+        np.array_equal(run.history("U"), whole.history("U")[at:]),
+        "compressed: the same numbers",
+    )
     with h5py.File(run.paths[0], "r") as file:
         check(file["VTKHDF/PointData/U"].compression == "gzip", "COMPR 6 compresses")
     card = field_card(4.0 * dt, bits=32, end="%10.3e" % (0.5 * end))
@@ -173,9 +179,16 @@ def options():
     used = np.unique(np.concatenate([c for c, k in zip(whole.cells, cells) if k]))
     check(np.array_equal(run.points, whole.points[used]), "PSID: the nodes of the part")
     check(np.array_equal(run.history("U"), whole.history("U")[:, used]), "PSID: U")
-    check(np.array_equal(run.history("STRESS"), whole.history("STRESS")[:, cells]), "PSID: STRESS")
-    check(all(np.array_equal(used[a], b) for a, b in
-              zip(run.cells, [c for c, k in zip(whole.cells, cells) if k])), "PSID: cells")
+    check(
+        np.array_equal(run.history("STRESS"), whole.history("STRESS")[:, cells]), "PSID: STRESS"
+    )
+    check(
+        all(
+            np.array_equal(used[a], b)
+            for a, b in zip(run.cells, [c for c, k in zip(whole.cells, cells) if k])
+        ),
+        "PSID: cells",
+    )
     card = "*DATABASE_BINARY_D3PLOT\n%10.3e\n" % (4.0 * dt)
     folder, code, errors = run_text("d3plot", text.replace("*END", card + "*END"))
     run = fields.Fields(folder)
@@ -187,7 +200,10 @@ def options():
     check(code == 0 and sorted(run.names) == ["U"], "the own card wins")
     log(folder, "NOTE", "has no effect beside *BIPACT_FIELD")
     folder, code, errors = run_text("both", text)
-    check(not [n for n in os.listdir(folder) if n.startswith("fields")], "no card: the old files go")
+    check(
+        not [n for n in os.listdir(folder) if n.startswith("fields")],
+        "no card: the old files go",
+    )
     xdmf(whole, os.path.join(TMP, "all"))
     wall()
 

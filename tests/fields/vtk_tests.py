@@ -100,7 +100,9 @@ def triangles():
     with open(os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")) as file:
         text = file.read()
     text = re.sub(r"(?s)\*BIPACT_(FIELD|RESTART).*?(?=\n\*)", "$", text)
-    text = text.replace("*END", "*BIPACT_FIELD\n     0.002\n         U    STRESS      PART\n*END")
+    text = text.replace(
+        "*END", "*BIPACT_FIELD\n     0.002\n         U    STRESS      PART\n*END"
+    )
     folder, code, errors = run_text("mixed", text)
     check(code == 0, "mixed: " + errors)
     run = fields.Fields(folder)
@@ -128,7 +130,9 @@ def pyvista_large():
     mesh = run.points.nbytes + 8 * (sum(len(c) for c in run.cells) + len(run.cells) + 1)
     within(size / (raw + mesh + len(run.cells)), 1.0, 1.1, "size / numbers")
     reader = pyvista.get_reader(os.path.join(folder, "fields.xdmf"))
-    check(len(reader.time_values) == len(run.times), "PyVista: %d times" % len(reader.time_values))
+    check(
+        len(reader.time_values) == len(run.times), "PyVista: %d times" % len(reader.time_values)
+    )
     k = len(run.times) // 2
     reader.set_active_time_value(reader.time_values[k])
     grid = reader.read()

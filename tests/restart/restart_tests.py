@@ -231,7 +231,9 @@ def signals():
         child = started(deck, folder)
         child.send_signal(number)
         code, errors = ended(child)
-        check(code == 4 and "stopped by a signal" in errors, "%s: %d %s" % (number, code, errors))
+        check(
+            code == 4 and "stopped by a signal" in errors, "%s: %d %s" % (number, code, errors)
+        )
         check(len(restart_files(folder)) == 1, "%s: one restart file" % number)
         with open(os.path.join(folder, "glstat.tab")) as file:
             check("# end: stopped" in file.read(), "the table says so")
@@ -305,7 +307,9 @@ def refused():
     cases.append((relabelled(b"format    1", b"format    9"), "its format is 9"))
     version = re.search(rb"version (\S+)", head).group(1)
     cases.append((relabelled(version, b"0" * len(version)), "of bipact wrote it"))
-    cases.append((relabelled(re.search(rb"deck (\S+)", head).group(1), b"0" * 16), "another deck"))
+    cases.append(
+        (relabelled(re.search(rb"deck (\S+)", head).group(1), b"0" * 16), "another deck")
+    )
     path = os.path.join(TMP, "bad.h5")
     for data, reason in cases:
         with open(path, "wb") as file:
@@ -325,7 +329,10 @@ def refused():
     check(not differences(whole, contents(folder)), "latest: the newest good one")
     with open(os.path.join(folder, "bipact.log")) as log:
         text = log.read()
-    check(os.path.basename(files[-3]) in text and "checksum" in text, "the log tells which, and why")
+    check(
+        os.path.basename(files[-3]) in text and "checksum" in text,
+        "the log tells which, and why",
+    )
     code, errors, _ = bipact(deck, os.path.join(TMP, "empty"), "--restart", "latest")
     check(code == 3 and "no restart file" in errors, errors)
     with open(os.path.join(folder, "rcforc.tab"), "w") as file:
@@ -393,7 +400,9 @@ def faults():
         code, errors = starved(deck, folder, bytes_of_file=size // 2)
         one_message(code, errors, "cannot write", "disk full, restart file")
         check(not restart_files(folder), "disk full: no half restart file")
-        check(not os.path.exists(os.path.join(folder, "restart.tmp")), "nor what was to become it")
+        check(
+            not os.path.exists(os.path.join(folder, "restart.tmp")), "nor what was to become it"
+        )
     deck_f = write_deck("fields", with_cards(text, RESTART % (20, "", 9) + EVERY_FIELD % 1e-9))
     bipact(deck_f, folder, "--quiet")
     whole_f = contents(folder)
@@ -448,7 +457,9 @@ def gone(folder):
         shutil.rmtree(folder, ignore_errors=True)
         shutil.rmtree(folder, ignore_errors=True)
         code, errors = ended(child)
-        check(code == 3 and words in errors or "removed" in errors, "gone: %d %s" % (code, errors))
+        check(
+            code == 3 and words in errors or "removed" in errors, "gone: %d %s" % (code, errors)
+        )
         check(errors.count("bipact: ") == 1, "gone: one message: %s" % errors)
 
 

@@ -2,6 +2,9 @@
 !> Numbers as text, sorting, the archive, words and failures.
 program test_base
   use base_archive, only: archive_t, archive_save, archive_restore
+  use base_checksum, only: checksum_of_text, checksum_of_file
+  use base_files, only: file_exists, file_size, move_file, remove_file, cut_file, sync_file, &
+      list_files, open_text, close_text, path_length
   use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
   use base_kinds, only: wp, i8
   use base_sort, only: sort_order, sort_integers, find_sorted
@@ -21,6 +24,9 @@ program test_base
   call test_integers()
   call test_sorting()
   call test_archive()
+  call test_archive_grows()
+  call test_checksum()
+  call test_files()
   call test_refusals()
   call test_edit_distance()
   call test_status()
@@ -208,6 +214,91 @@ contains
     call check_equal(k, -2147483647, 'an integer')
     call check_true(all(list == [2147483647, 0, -5, 7]), 'integers')
   end subroutine test_archive
+
+  !> More entries than it begins with, flags too.
+  subroutine test_archive_grows()
+    type(archive_t) :: archive
+    logical :: flags(3), flag
+    integer :: k, n, wrong
+    call archive%rewind(archive_save)
+    flags = [.true., .false., .true.]
+    flag = .true.
+    call archive%exchange('flags', flags)
+    call archive%exchange('flag', flag)
+    do k = 1, 300
+      n = k
+      call archive%exchange('n', n)
+    end do
+    call archive%rewind(archive_restore)
+    flags = .false.
+    flag = .false.
+    wrong = 0
+    call archive%exchange('flags', flags)
+    call archive%exchange('flag', flag)
+    do k = 1, 300
+      call archive%exchange('n', n)
+      if (n /= k) wrong = wrong + 1
+    end do
+    call check_equal(wrong, 0, 'three hundred entries come back')
+    call check_true(flag .and. all(flags .eqv. [.true., .false., .true.]), 'flags come back')
+  end subroutine test_archive_grows
+
+  !> Words 1 and 2: sums 3 and 1 + 3 = 4. Every single bit counts, of text and of files, and so
+  !> does the length of a file.
+  subroutine test_checksum()
+    character(*), parameter :: path = 'checksum.scratch'
+    character(40000) :: text
+    character(16) :: digits, other
+    type(status_t) :: status
+    integer(i8) :: bytes
+    integer :: k, at, same, unit
+    call check_equal(checksum_of_text(achar(1)//repeat(achar(0), 3)//achar(2)), &
+        '0000000400000003', 'a checksum by hand')
+    do k = 1, len(text)
+      text(k:k) = achar(modulo(37*k, 251))
+    end do
+    digits = checksum_of_text(text)
+    same = 0
+    do k = 1, 300
+      at = 1 + modulo(7919*k, len(text))
+      text(at:at) = achar(ieor(iachar(text(at:at)), 2**modulo(k, 7)))
+      if (checksum_of_text(text) == digits) same = same + 1
+      text(at:at) = achar(ieor(iachar(text(at:at)), 2**modulo(k, 7)))
+    end do
+    call check_equal(same, 0, 'a changed bit is seen')
+    open (newunit=unit, file=path, access='stream', form='unformatted', status='replace')
+    write (unit) 'head', text(:len(text) - 1)
+    close (unit)
+    call checksum_of_file(path, 4, other, bytes, status)
+    call check_true(bytes == len(text) - 1 .and. .not. failed(status), 'bytes of a file')
+    call check_equal(other, checksum_of_text(text(:len(text) - 1)), 'a file as its text')
+    call remove_file(path)
+    call checksum_of_file(path, 4, other, bytes, status)
+    call check_true(failed(status), 'a file that is not there')
+  end subroutine test_checksum
+
+  subroutine test_files()
+    character(path_length), allocatable :: paths(:)
+    type(status_t) :: status
+    integer :: unit
+    call open_text('a[1].scratch', unit, status)
+    write (unit, '(a)') 'twelve bytes', 'more'
+    call close_text('a[1].scratch', unit, status)
+    call check_equal(file_size('a[1].scratch'), 18_i8, 'the size of a text file')
+    call cut_file('a[1].scratch', 13_i8, status)
+    call check_equal(file_size('a[1].scratch'), 13_i8, 'cut')
+    call move_file('a[1].scratch', 'b[1].scratch', status)
+    call sync_file('b[1].scratch', status)
+    call check_true(.not. failed(status), 'nothing failed')
+    call check_true(.not. file_exists('a[1].scratch') .and. file_exists('b[1].scratch'), 'moved')
+    call list_files('.', '?[[]1].scratch', paths)
+    call check_equal(size(paths), 1, 'listed')
+    call check_equal(trim(paths(1)), './b[1].scratch', 'by name')
+    call remove_file('b[1].scratch')
+    call check_equal(file_size('b[1].scratch'), -1_i8, 'removed')
+    call move_file('b[1].scratch', 'c', status)
+    call check_true(failed(status), 'nothing to move')
+  end subroutine test_files
 
   subroutine test_refusals()
     type(archive_t) :: archive
