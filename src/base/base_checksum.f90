@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A checksum of text and files: Fletcher's (1982) of 32-bit words, two sums modulo the prime 2^32 - 5,
-!> as 16 hexadecimal digits. It sees every single changed bit, and a file that ends early.
+!> A checksum of text and files: Fletcher's (1982) of 32-bit words, two sums modulo the prime
+!> 2^32 - 5, as 16 hexadecimal digits. It sees every single changed bit, and a file that ends
+!> early.
 module base_checksum
   use base_kinds, only: i4, i8
   use base_status, only: status_t, fail, status_file

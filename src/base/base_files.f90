@@ -72,6 +72,7 @@ module base_files
 
 contains
 
+  !> Is there a file or folder of that path?
   logical function file_exists(path)
     character(*), intent(in) :: path
     inquire (file=path, exist=file_exists)
@@ -147,8 +148,8 @@ contains
     error = -1_c_int
     if (descriptor >= 0_c_int) error = c_fsync(descriptor)
     if (descriptor >= 0_c_int) ignored = c_close(descriptor)
-    if (error /= 0_c_int) call fail(status, status_file, '"'//path//'" was not brought to the'// &
-        ' disk', hint='is the disk full or gone?')
+    if (error /= 0_c_int) call fail(status, status_file, '"'//path//'" was not brought '// &
+        'to the disk', hint='is the disk full or gone?')
   end subroutine sync_file
 
   !> Paths in a folder whose names fit a pattern with * (in increasing order).

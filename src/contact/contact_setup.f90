@@ -63,9 +63,11 @@ contains
   pure logical function needs_nodal(model)
     type(model_t), intent(in) :: model
     needs_nodal = model%requests%ncforc > zero
-    if (model%requests%field%on) needs_nodal = needs_nodal .or. any(model%requests%field%wanted &
-        .and. (field_names == 'FORCE' .or. field_names == 'PRESSURE' .or. field_names == 'GAP' &
-        .or. field_names == 'STATUS'))
+    associate (field => model%requests%field)
+      if (field%on) needs_nodal = needs_nodal .or. any(field%wanted .and. (field_names == &
+          'FORCE' .or. field_names == 'PRESSURE' .or. field_names == 'GAP' .or. &
+          field_names == 'STATUS'))
+    end associate
   end function needs_nodal
 
   !> Work space of the forces on nodes.

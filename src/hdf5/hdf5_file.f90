@@ -12,8 +12,8 @@ module hdf5_file
       h5gn_members_f, h5gget_obj_info_idx_f
   implicit none
   private
-  public :: start_library, open_file, create_file, close_file, has_path, read_integers, read_reals, &
-      make_group, write_integers, write_reals, list_members
+  public :: start_library, open_file, create_file, close_file, has_path, read_integers, &
+      read_reals, make_group, write_integers, write_reals, list_members
 
   type, public :: file_t
     integer(hid_t) :: id = -1
@@ -40,8 +40,8 @@ contains
         '": it is no HDF5 file, or a part of one')
   end subroutine open_file
 
-  !> Creates an HDF5 file; one of that name is replaced. The library leaves the first `free` bytes
-  !> (0, or 512 and more) to the program.
+  !> Creates an HDF5 file; one of that name is replaced. The library leaves the first `free`
+  !> bytes (0, or 512 and more) to the program.
   subroutine create_file(name, file, status, free)
     character(*), intent(in) :: name
     type(file_t), intent(out) :: file

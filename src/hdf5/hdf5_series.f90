@@ -37,8 +37,8 @@ module hdf5_series
 
 contains
 
-  !> A data set at path: kind is REAL, SINGLE, INTEGER or BYTE; (components, rows) in Fortran's order,
-  !> or (rows) where `flat`. chunk: rows of a chunk; compression 0 to 9.
+  !> A data set at path: kind is REAL, SINGLE, INTEGER or BYTE; (components, rows) in Fortran's
+  !> order, or (rows) where `flat`. chunk: rows of a chunk; compression 0 to 9.
   subroutine create_series(file, path, kind, components, flat, chunk, compression, series, &
       status)
     type(file_t), intent(in) :: file
@@ -65,7 +65,8 @@ contains
       allocate (series%reals(components, chunk), stat=stat)
       series%kind = h5kind_to_type(wp, h5_real_kind)
     end if
-    if (stat /= 0) call fail(status, status_file, 'not enough memory to write "'//file%name//'"')
+    if (stat /= 0) call fail(status, status_file, 'not enough memory to write "'// &
+        file%name//'"')
     if (failed(status)) return
     on_file = series%kind
     if (kind == 'BYTE') on_file = h5t_std_u8le
@@ -177,6 +178,7 @@ contains
     call write_attribute(attribute, value)
   end subroutine open_attribute
 
+  !> Another value.
   subroutine write_attribute(attribute, value)
     integer(hid_t), intent(in) :: attribute
     integer(i8), intent(in) :: value
@@ -186,6 +188,7 @@ contains
     call h5awrite_f(attribute, h5kind_to_type(i8, h5_integer_kind), c_loc(copy), error)
   end subroutine write_attribute
 
+  !> The last value stays.
   subroutine close_attribute(attribute)
     integer(hid_t), intent(inout) :: attribute
     integer :: error

@@ -264,8 +264,9 @@ contains
     end do
   end subroutine fill_principal
 
-  !> What contact knows of nodes, all pairs together: sums of force and pressure, the smallest gap
-  !> (not a number where none is watched), the highest status (-1 where there is no surface).
+  !> What contact knows of nodes, all pairs together: sums of force and pressure, the smallest
+  !> gap (not a number where none is watched), the highest status (-1 where there is no
+  !> surface).
   subroutine fill_contact(contact, nodes, list, field)
     type(contact_t), intent(in) :: contact
     integer, intent(in) :: nodes, list(:)

@@ -71,8 +71,8 @@ contains
     table%path = join_path(folder, name//'.tab')
     if (.not. table%on) return
     if (file_size(table%path) < table%written) then
-      call fail(status, status_file, 'cannot go on with "'//table%path//'": it has lost rows '// &
-          'that it had when the restart file was written')
+      call fail(status, status_file, 'cannot go on with "'//table%path//'": it has lost '// &
+          'rows that it had when the restart file was written')
       table%on = .false.
       return
     end if

@@ -193,8 +193,9 @@ contains
     n = size(mesh%kind)
     if (all(mesh%kind == 9) .or. all(mesh%kind == 5)) then
       text = '<Topology TopologyType="'//trim(merge('Quadrilateral', 'Triangle     ', &
-          all(mesh%kind == 9)))//'" NumberOfElements="'//to_text(n)//'"><DataItem Dimensions="'// &
-          to_text(n)//' '//to_text(merge(4, 3, all(mesh%kind == 9)))// &
+          all(mesh%kind == 9)))//'" NumberOfElements="'//to_text(n)// &
+          '"><DataItem Dimensions="'//to_text(n)// &
+          ' '//to_text(merge(4, 3, all(mesh%kind == 9)))// &
           '" NumberType="Int" Precision="8" Format="HDF">'//file// &
           'Connectivity</DataItem></Topology>'
       return

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Field files of a run: segments of frames, and the XDMF file over all of them. Only scenes that
-!> ask for fields come here.
+!> Field files of a run: segments of frames, and the XDMF file over all of them. Only scenes
+!> that ask for fields come here.
 module run_frames
   use base_files, only: list_files, remove_file, path_length
   use base_kinds, only: wp
@@ -79,7 +79,8 @@ contains
     call write_xdmf(run%folder, run%mesh, run%fields, run%model%requests%field%single, status)
   end subroutine end_segment
 
-  !> Removes the field files of an earlier run from a folder: those of number `first` and higher.
+  !> Removes the field files of an earlier run from a folder: those of number `first` and
+  !> higher.
   subroutine remove_segments(folder, first)
     character(*), intent(in) :: folder
     integer, intent(in) :: first

@@ -10,7 +10,8 @@ module run_motion
   use run_data, only: run_t
   implicit none
   private
-  public :: activate_motions, hold_active, impose_motions, restore_motions, start_reactions, find_reactions
+  public :: activate_motions, hold_active, impose_motions, restore_motions, &
+      start_reactions, find_reactions
 
 contains
 

@@ -30,9 +30,9 @@ module run_program
 
 contains
 
-  !> Does what the command line asks for and leaves with the exit code. storage, where allocated,
-  !> keeps fields and restart files; a program without it becomes the one that has it when a
-  !> scene asks for them.
+  !> Does what the command line asks for and leaves with the exit code. storage, where
+  !> allocated, keeps fields and restart files; a program without it becomes the one that has it
+  !> when a scene asks for them.
   subroutine run_deck(storage)
     class(storage_t), allocatable, intent(inout) :: storage
     type(arguments_t) :: arguments
@@ -123,7 +123,8 @@ contains
         index(text, new_line('a')//'*BIPACT_RESTART') > 0
   end function likely_storage
 
-  !> Fields and restarts need the program that is linked with HDF5: it starts from the beginning.
+  !> Fields and restarts need the program that is linked with HDF5: it starts from the
+  !> beginning.
   subroutine need_storage(arguments, run, status)
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(in) :: run

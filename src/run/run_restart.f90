@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Restart files: when one is due, what it holds, and how a run goes on from it, bit for bit. Only
-!> scenes that ask for them come here.
+!> Restart files: when one is due, what it holds, and how a run goes on from it, bit for bit.
+!> Only scenes that ask for them come here.
 module run_restart
   use base_archive, only: archive_t, archive_save, archive_restore
   use base_checksum, only: checksum_of_text

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> bipact with HDF5: the same program, which bipact becomes where a scene asks for field files or
-!> restarts. Apart, because linking the library costs every start.
+!> bipact with HDF5: the same program, which bipact becomes where a scene asks for field files
+!> or restarts. Apart, because linking the library costs every start.
 program bipact_hdf5
   use hdf5_file, only: start_library
   use output_storage, only: storage_t

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Restart files: HDF5 with one data set for each array of the archive, after 512 bytes of text
-!> that name the format, the deck, the moment, and the length and checksum of all that follows. A
-!> file that does not agree with them never comes before the library.
+!> that name the format, the deck, the moment, and the length and checksum of all that follows.
+!> A file that does not agree with them never comes before the library.
 module store_restart
   use base_archive, only: archive_t, archive_restore, archive_save
   use base_checksum, only: checksum_of_file, checksum_of_text
