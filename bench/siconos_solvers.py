@@ -4,8 +4,8 @@ python3-siconos). Run by contact_problems.py --siconos, with the Python that has
 
     siconos_solvers.py PROBLEM.dat SOLVER TOLERANCE REACTIONS     prints iterations and seconds
 
-PROBLEM.dat is what write() below makes: W by blocks, scaled to a mean diagonal of 1, so that the
-error that Siconos itself looks at is the unit-free error of bipact."""
+PROBLEM.dat is what write() below makes: W by blocks, scaled to a mean diagonal of 1, so that
+the error that Siconos itself looks at is the unit-free error of bipact."""
 
 import sys
 import time

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What field files and restart files cost the two-bar impact (THETA, 4000 steps, 200 elements): medians
-of the processor time, interleaved, each over the run without them; and larger bars."""
+"""What field files and restart files cost the two-bar impact (THETA, 4000 steps, 200 elements):
+medians of the processor time, interleaved, each over the run without them; and larger bars."""
 
 import os
 import shutil

@@ -3,7 +3,8 @@
 
 Needs bin/bipact and the decks input/two_bars/newmark.k, theta.k, theta_dispersion.k.  Writes
 demo.out/NAME/ (the run directories) and demo.out/*.png: figures 1-4 of the paper, the
-contact force, and the waves over x and t (of waves.k, where HDF5 is there).  Exit code 1 if a run or a comparison fails.
+contact force, and the waves over x and t (of waves.k, where HDF5 is there).  Exit code 1 if a
+run or a comparison fails.
 """
 
 import argparse

@@ -5,9 +5,9 @@
     plot_fields.py RUN --field V:x --animate              an animation (GIF)
     plot_fields.py RUN --field V:x --xt                   over x (mean over y) and time (PNG)
 
-RUN is the directory of a run with *BIPACT_FIELD. A field is a name, or NAME:component: x, y, z, size
-of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL. Displacements are magnified by
---scale in snapshots and animations."""
+RUN is the directory of a run with *BIPACT_FIELD. A field is a name, or NAME:component: x, y, z,
+size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL. Displacements are
+magnified by --scale in snapshots and animations."""
 
 import argparse
 import os

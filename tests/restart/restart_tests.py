@@ -1,5 +1,5 @@
-"""A run that is stopped, killed or starved goes on from its last good restart file as if nothing
-had been: every byte of its tables, every number of its fields."""
+"""A run that is stopped, killed or starved goes on from its last good restart file as if
+nothing had been: every byte of its tables, every number of its fields."""
 
 import glob
 import os
@@ -317,6 +317,11 @@ def refused():
         code, errors, _ = bipact(deck, folder, "--quiet", "--restart", path)
         check(code == 3 and reason in errors, "expected %s: %d %s" % (reason, code, errors))
     check(not differences(whole, contents(folder)), "the folder is as it was")
+    lonely = os.path.join(TMP, "bipact")
+    shutil.copy(BIPACT, lonely)
+    done = subprocess.run([lonely, deck, "-o", folder], capture_output=True, text=True)
+    words = 'need the program "%s"' % os.path.join(TMP, "bipact-hdf5")
+    check(done.returncode == 3 and words in done.stderr, "without HDF5: " + done.stderr)
     code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "nowhere.h5")
     check(code == 3 and "no such file" in errors, errors)
     with open(files[-1], "wb") as file:
