@@ -95,7 +95,7 @@ contains
   subroutine append_rows(file, series, rows, status)
     type(file_t), intent(in) :: file
     type(series_t), intent(inout), target :: series
-    real(wp), intent(in) :: rows(:, :)
+    real(wp), intent(in), contiguous :: rows(:, :)
     type(status_t), intent(inout) :: status
     integer :: first, n, at
     first = 1
@@ -103,17 +103,34 @@ contains
       n = min(size(rows, 2) - first + 1, series%room - series%held)
       at = series%held
       if (series%single) then
-        series%singles(:, at + 1:at + n) = real(rows(:, first:first + n - 1), real32)
+        call round(series%components*n, rows(:, first:first + n - 1), &
+            series%singles(:, at + 1:at + n))
       else if (series%whole) then
         series%integers(:, at + 1:at + n) = nint(rows(:, first:first + n - 1), i8)
       else
-        series%reals(:, at + 1:at + n) = rows(:, first:first + n - 1)
+        call copy(series%components*n, rows(:, first:first + n - 1), &
+            series%reals(:, at + 1:at + n))
       end if
       series%held = at + n
       first = first + n
       if (series%held == series%room) call flush_series(file, series, status)
     end do
   end subroutine append_rows
+
+  !> Columns side by side as one list: one copy instead of many of three numbers.
+  pure subroutine copy(n, from, to)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: from(n)
+    real(wp), intent(out) :: to(n)
+    to = from
+  end subroutine copy
+
+  pure subroutine round(n, from, to)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: from(n)
+    real(real32), intent(out) :: to(n)
+    to = real(from, real32)
+  end subroutine round
 
   !> Writes what is held in memory.
   subroutine flush_series(file, series, status)

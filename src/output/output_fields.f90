@@ -22,7 +22,7 @@ module output_fields
     !> stress is asked for
     real(wp), allocatable :: stress_of(:, :, :)
     integer, allocatable :: corner(:, :)       !< (4, cells) nodes
-    real(wp), allocatable :: stress(:, :)      !< (4, cells) of the frame [F/L2]
+    real(wp), allocatable :: stress(:, :)      !< (6, cells), only for PRINCIPAL [F/L2]
     real(wp) :: next = zero                    !< a frame is due from next*interval on
     integer :: segment = 0                     !< number of the file that is open or comes next
     integer :: frames = 0
@@ -50,6 +50,7 @@ contains
             real(model%part(model%element_part(fields%cell))%id, wp)
         if (field_names(k) == 'STRESS' .or. field_names(k) == 'PRINCIPAL') &
             call make_stress(model, fields)
+        if (field_names(k) == 'PRINCIPAL') allocate (fields%stress(6, size(fields%cell)))
       end do
     end associate
   end subroutine make_fields
@@ -100,7 +101,7 @@ contains
     real(wp) :: u(2, 4), stress(3)
     integer :: k, e, n, c
     if (allocated(fields%stress_of)) return
-    allocate (fields%stress_of(4, 8, size(fields%cell)), fields%stress(4, size(fields%cell)))
+    allocate (fields%stress_of(4, 8, size(fields%cell)))
     fields%stress_of = zero
     fields%corner = model%connectivity(:, fields%cell)
     do k = 1, size(fields%cell)
@@ -188,8 +189,6 @@ contains
     type(contact_t), intent(in) :: contact
     type(fields_t), intent(inout) :: fields
     integer :: k, i
-    if (allocated(fields%stress_of)) call find_stress(size(fields%cell), fields%corner, &
-        fields%stress_of, model%nodes, state%u, fields%stress)
     do k = 1, size(fields%field)
       associate (values => fields%field(k)%values)
         select case (fields%field(k)%name)
@@ -203,8 +202,11 @@ contains
         case ('FORCE', 'PRESSURE', 'GAP', 'STATUS')
           call fill_contact(contact, model%nodes, fields%node, fields%field(k))
         case ('STRESS')
-          values(1:4, :) = fields%stress
+          call find_stress(size(fields%cell), fields%corner, fields%stress_of, model%nodes, &
+              state%u, values)
         case ('PRINCIPAL')
+          call find_stress(size(fields%cell), fields%corner, fields%stress_of, model%nodes, &
+              state%u, fields%stress)
           call fill_principal(fields%stress, values)
         case ('ENERGY')
           do i = 1, size(fields%cell)
@@ -219,7 +221,7 @@ contains
   pure subroutine find_stress(cells, corner, stress_of, nodes, u, stress)
     integer, intent(in) :: cells, nodes, corner(4, cells)
     real(wp), intent(in) :: stress_of(4, 8, cells), u(2, nodes)
-    real(wp), intent(out) :: stress(4, cells)
+    real(wp), intent(inout) :: stress(6, cells)
     real(wp) :: sum_of(4)
     integer :: k, c, node
     do k = 1, cells
@@ -228,7 +230,8 @@ contains
         node = corner(c, k)
         sum_of = sum_of + stress_of(:, 2*c - 1, k)*u(1, node) + stress_of(:, 2*c, k)*u(2, node)
       end do
-      stress(:, k) = sum_of
+      stress(1:4, k) = sum_of
+      stress(5:6, k) = zero
     end do
   end subroutine find_stress
 

@@ -1094,7 +1094,9 @@ class DemoTest(Case):
 class StyleTest(Case):
     FILES = [
         os.path.join(SCRIPTS, n + ".py")
-        for n in "analytic compare demo fields make_bars plot_fields plot_history tables".split()
+        for n in (
+            "analytic compare demo fields make_bars plot_fields plot_history tables"
+        ).split()
     ] + [__file__]
 
     def test_width_and_help(self):
