@@ -86,6 +86,12 @@ def scenes():
     yield "ledger every step", touching, plus(touching, "*BIPACT_LEDGER", "0,"), plus(
         touching, "*BIPACT_LEDGER", "1,"
     )
+    yield "field files", touching, plus(touching, "*BIPACT_FIELD", "99.0,"), plus(
+        touching, "*BIPACT_FIELD", "%r," % DT
+    )
+    yield "restart files", touching, plus(touching, "*BIPACT_RESTART", "0,"), plus(
+        touching, "*BIPACT_RESTART", "100,"
+    )
     yield "bodies near, not touching", none, None, bars(gap=NEAR)
 
 
@@ -154,17 +160,19 @@ def main():
         for name, *texts in scenes():
             if a.only not in name:
                 continue
+            # What bipact becomes there: callgrind does not follow it.
+            program = common.PROGRAM + ("-hdf5" if " files" in name else "")
             row = []
             for text in texts:
                 if text is None or not counts:
                     row.append(None)
                     continue
                 long, short = (
-                    instructions(common.PROGRAM, text, s, folder) for s in (STEPS, STEPS // 4)
+                    instructions(program, text, s, folder) for s in (STEPS, STEPS // 4)
                 )
                 row.append((long - short) / (STEPS - STEPS // 4))
             times = [
-                None if text is None else seconds(common.PROGRAM, text, folder, a.runs)
+                None if text is None else seconds(program, text, folder, a.runs)
                 for text in texts
             ]
             base = row[0]
