@@ -65,8 +65,11 @@ contains
     d = size(q)
     b(:d) = -q
     call solve_small(w, b(:d), s(:d), ok)
-    if (.not. ok .or. .not. s(1) > zero) return
-    if (d > 1 .and. tangent_length(s(:d)) > mu*s(1)) return
+    if (.not. ok) return
+    if (.not. s(1) > zero) return
+    if (d > 1) then
+      if (tangent_length(s(:d)) > mu*s(1)) return
+    end if
     distance = sum((s(:d) - r)**2)
     if (distance >= nearest) return
     nearest = distance

@@ -109,7 +109,8 @@ contains
     real(wp) :: motion(2), noise
     integer :: k
     done = .true.
-    if (contact%rows == 0) return
+    ! Rows of an earlier list, where nothing is listed now.
+    if (contact%rows == 0 .or. .not. contact%w_is_current) return
     call size_cone_work(contact%work, contact%d, contact%rows)
     do k = 1, contact%rows
       associate (c => contact%candidate(contact%row_of(k)))
