@@ -170,7 +170,7 @@ contains
     series%held = 0
   end subroutine flush_series
 
-  !> Writes the rest and closes.
+  !> Writes the rest, closes, and gives the memory back.
   subroutine close_series(file, series, status)
     type(file_t), intent(in) :: file
     type(series_t), intent(inout), target :: series
@@ -179,6 +179,9 @@ contains
     call flush_series(file, series, status)
     if (series%set >= 0) call h5dclose_f(series%set, error)
     series%set = -1
+    if (allocated(series%reals)) deallocate (series%reals)
+    if (allocated(series%singles)) deallocate (series%singles)
+    if (allocated(series%integers)) deallocate (series%integers)
   end subroutine close_series
 
   !> An integer attribute that will change: made with a value, kept open.
