@@ -118,17 +118,34 @@ def bitwise():
         whole = contents(folder)
         changed = [k for k in before if before[k] != whole.get(k)]
         check(not changed, "%s: restart files change %s" % (name, changed))
-        files = restart_files(folder)
-        check(len(files) >= 5, "%s: %d restart files" % (name, len(files)))
-        for file in files:
-            copy = os.path.join(TMP, "copy")
-            shutil.rmtree(copy, ignore_errors=True)
-            shutil.copytree(folder, copy)
-            file = os.path.join(copy, os.path.basename(file))
-            code, errors, _ = bipact(deck, copy, "--quiet", "--restart", file)
-            check(code == 0, "%s from %s: %s" % (name, os.path.basename(file), errors))
-            off = differences(whole, contents(copy))
-            check(not off, "%s from %s: %s" % (name, os.path.basename(file), off[:5]))
+        go_on_from_each(name, deck, folder, whole)
+    # Motions that begin and end, reactions, loads, walls, a last step that is cut.
+    with open(os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")) as file:
+        text = file.read()
+    comments = r"(?:\$[^\n]*\n)*"
+    text, one = re.subn(r"(\*BIPACT_RESTART\n%s).*" % comments, r"\g<1>        17,,99", text)
+    text, two = re.subn(r"(\*BIPACT_FIELD\n%s).*" % comments, r"\g<1>    0.0007", text)
+    check(one == 1 and two == 1, "the cards of restarts and fields are there")
+    deck, folder = write_deck("every", text), os.path.join(TMP, "every")
+    for options in ([], ["-D", "scheme=NEWMARK"], ["-D", "tend=0.01985"], ["-D", "mu=0.0"]):
+        code, errors, _ = bipact(deck, folder, "--quiet", *options)
+        check(code == 0, "every keyword: " + errors)
+        go_on_from_each("every keyword", deck, folder, contents(folder), *options)
+
+
+def go_on_from_each(name, deck, folder, whole, *options):
+    """From each restart file of a run, in a copy of its folder, to the whole run."""
+    files = restart_files(folder)
+    check(len(files) >= 5, "%s: %d restart files" % (name, len(files)))
+    for file in files:
+        copy = os.path.join(TMP, "copy")
+        shutil.rmtree(copy, ignore_errors=True)
+        shutil.copytree(folder, copy)
+        file = os.path.join(copy, os.path.basename(file))
+        code, errors, _ = bipact(deck, copy, "--quiet", "--restart", file, *options)
+        check(code == 0, "%s from %s: %s" % (name, os.path.basename(file), errors))
+        off = differences(whole, contents(copy))
+        check(not off, "%s from %s: %s" % (name, os.path.basename(file), off[:5]))
 
 
 def time_of_step(folder):
