@@ -39,7 +39,9 @@ def measure(folder, options, times):
             seconds[k].append(common.run(deck, out)["cpu"])
     medians = [statistics.median(s) for s in seconds]
     for (name, _), value in zip(CASES, medians):
-        print("%-28s %9.1f ms %+8.1f %%" % (name, 1e3 * value, 1e2 * (value / medians[0] - 1.0)))
+        print(
+            "%-28s %9.1f ms %+8.1f %%" % (name, 1e3 * value, 1e2 * (value / medians[0] - 1.0))
+        )
 
 
 def main():

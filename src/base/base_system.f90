@@ -3,6 +3,7 @@
 module base_system
   use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, &
       c_null_ptr, c_loc, c_size_t
+  use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use base_status, only: status_t, fail, status_file
   implicit none
   private
@@ -68,6 +69,8 @@ contains
   !> Ends the program with an exit code and no word of the run-time library.
   subroutine leave(code)
     integer, intent(in) :: code
+    flush (output_unit)
+    flush (error_unit)
     call c_exit(int(code, c_int))
   end subroutine leave
 

@@ -4,7 +4,8 @@ module hdf5_file
   use base_kinds, only: wp
   use base_status, only: status_t, fail, failed, status_deck, status_file
   use base_strings, only: to_text
-  use hdf5, only: hid_t, hsize_t, h5open_f, h5fopen_f, h5fcreate_f, h5fclose_f, &
+  use hdf5, only: hid_t, hsize_t, h5dont_atexit_f, h5open_f, h5fopen_f, &
+      h5fcreate_f, h5fclose_f, &
       h5f_acc_rdonly_f, h5f_acc_trunc_f, h5eset_auto_f, h5lexists_f, h5dopen_f, h5dclose_f, &
       h5dget_space_f, h5sget_simple_extent_npoints_f, h5sclose_f, h5dread_f, h5dwrite_f, &
       h5dcreate_f, h5screate_simple_f, h5gcreate_f, h5gclose_f, h5t_native_integer, &
@@ -61,6 +62,8 @@ contains
   !> Once, before all else: again it would make all its types again. Errors become statuses.
   subroutine start_library()
     integer :: error
+    ! Its own end of a program would write once more to what could not be written, and crash.
+    call h5dont_atexit_f(error)
     call h5open_f(error)
     call h5eset_auto_f(0, error)
   end subroutine start_library

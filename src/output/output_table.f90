@@ -26,7 +26,7 @@ module output_table
   end type table_file_t
 
   public :: open_table, row_is_due, rows_done, begin_row, add_number, add_count, end_row, &
-      close_table, write_out, reopen_table
+      close_table, write_out, reopen_table, check_rows
 
 contains
 
@@ -58,6 +58,20 @@ contains
     call add_line(table, '# '//columns)
   end subroutine open_table
 
+  !> Fails where a table does not have the table%written bytes any more that it had.
+  subroutine check_rows(table, folder, name, interval, status)
+    type(table_file_t), intent(in) :: table
+    character(*), intent(in) :: folder, name
+    real(wp), intent(in) :: interval
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: path
+    path = join_path(folder, name//'.tab')
+    if (.not. interval > zero) return
+    if (file_size(path) < table%written) call fail(status, status_file, &
+        'cannot go on with "'//path//'": it has lost rows that it had when the restart '// &
+        'file was written')
+  end subroutine check_rows
+
   !> Opens a table of which the first table%written bytes are kept, to add rows to them.
   subroutine reopen_table(table, folder, name, interval, status)
     type(table_file_t), intent(inout) :: table
@@ -70,12 +84,6 @@ contains
     table%interval = interval
     table%path = join_path(folder, name//'.tab')
     if (.not. table%on) return
-    if (file_size(table%path) < table%written) then
-      call fail(status, status_file, 'cannot go on with "'//table%path//'": it has lost '// &
-          'rows that it had when the restart file was written')
-      table%on = .false.
-      return
-    end if
     call cut_file(table%path, table%written, status)
     allocate (character(buffer_size) :: table%buffer)
     open (newunit=table%unit, file=table%path, access='stream', form='unformatted', &

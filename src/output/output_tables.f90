@@ -4,10 +4,10 @@ module output_tables
   use base_archive, only: archive_t
   use base_format, only: real_writer_t, make_real_writer
   use base_kinds, only: wp, i8
-  use base_status, only: status_t
+  use base_status, only: status_t, failed
   use model_data, only: model_t
   use output_table, only: table_file_t, open_table, row_is_due, add_number, close_table, &
-      reopen_table, write_out
+      reopen_table, check_rows, write_out
   implicit none
   private
   integer, parameter, public :: table_glstat = 1, table_matsum = 2, table_nodout = 3, &
@@ -34,33 +34,37 @@ contains
     logical, intent(in) :: has_acceleration, again
     type(status_t), intent(inout) :: status
     character(:), allocatable :: more
+    integer :: pass
     more = ''
     if (has_acceleration) more = ' ax ay az'
-    associate (r => model%requests)
-      call open_one(table_glstat, 'glstat', r%glstat, &
-          'time cycle dt kinetic internal total '// &
-          'initial external motion friction contact unsolved algorithmic damping residual '// &
-          'ratio momx momy momz angx angy angz')
-      call open_one(table_matsum, 'matsum', r%matsum, &
-          'time part mass kinetic internal momx momy momz vx vy vz')
-      call open_one(table_nodout, 'nodout', r%nodout, &
-          'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more)
-      call open_one(table_elout, 'elout', r%elout, &
-          'time element part sxx syy szz sxy syz szx energy')
-      call open_one(table_rcforc, 'rcforc', r%rcforc, 'time contact side fx fy fz fmx fmy '// &
-          'fmz ix iy iz fn ft nactive nstick nslip gapmin')
-      call open_one(table_rwforc, 'rwforc', r%rwforc, 'time wall fx fy fz fmx fmy fmz '// &
-          'ix iy iz fn ft nactive nstick nslip gapmin')
-      call open_one(table_sleout, 'sleout', r%sleout, &
-          'time contact normalwork frictionwork '// &
-          'solves sweeps eta error error2018 penetration')
-      call open_one(table_spcforc, 'spcforc', r%spcforc, 'time node fx fy fz')
-      call open_one(table_ncforc, 'ncforc', r%ncforc, &
-          'time contact side node fx fy fz fmx fmy fmz pressure gap slip status')
-      call open_one(table_timing, 'timing', r%timing, &
-          'time cycle cpu input assemble factor '// &
-          'solve search contact output factors solves sweeps')
-    end associate
+    do pass = merge(1, 2, again), 2   ! first whether all are there, then what changes them
+      if (failed(status)) return
+      associate (r => model%requests)
+        call open_one(table_glstat, 'glstat', r%glstat, &
+            'time cycle dt kinetic internal total '// &
+            'initial external motion friction contact unsolved algorithmic damping '// &
+            'residual ratio momx momy momz angx angy angz')
+        call open_one(table_matsum, 'matsum', r%matsum, &
+            'time part mass kinetic internal momx momy momz vx vy vz')
+        call open_one(table_nodout, 'nodout', r%nodout, &
+            'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more)
+        call open_one(table_elout, 'elout', r%elout, &
+            'time element part sxx syy szz sxy syz szx energy')
+        call open_one(table_rcforc, 'rcforc', r%rcforc, 'time contact side fx fy fz fmx '// &
+            'fmy fmz ix iy iz fn ft nactive nstick nslip gapmin')
+        call open_one(table_rwforc, 'rwforc', r%rwforc, 'time wall fx fy fz fmx fmy fmz '// &
+            'ix iy iz fn ft nactive nstick nslip gapmin')
+        call open_one(table_sleout, 'sleout', r%sleout, &
+            'time contact normalwork frictionwork '// &
+            'solves sweeps eta error error2018 penetration')
+        call open_one(table_spcforc, 'spcforc', r%spcforc, 'time node fx fy fz')
+        call open_one(table_ncforc, 'ncforc', r%ncforc, &
+            'time contact side node fx fy fz fmx fmy fmz pressure gap slip status')
+        call open_one(table_timing, 'timing', r%timing, &
+            'time cycle cpu input assemble factor '// &
+            'solve search contact output factors solves sweeps')
+      end associate
+    end do
     tables%any_on = any(tables%file%on)
     if (tables%any_on) call make_real_writer(tables%writer)
 
@@ -70,6 +74,10 @@ contains
       integer, intent(in) :: k
       character(*), intent(in) :: name, columns
       real(wp), intent(in) :: interval
+      if (again .and. pass == 1) then
+        call check_rows(tables%file(k), folder, name, interval, status)
+        return
+      end if
       if (again) call reopen_table(tables%file(k), folder, name, interval, status)
       if (.not. again) call open_table(tables%file(k), folder, name, interval, model%title, &
           columns, status)

@@ -2,7 +2,7 @@
 !> A small XDMF file that shows the frames of all field files as one series in time, for readers
 !> that know no VTKHDF. It holds no numbers but the times: the rest is in the HDF5 files.
 module output_xdmf
-  use base_files, only: move_file, file_size
+  use base_files, only: move_file, remove_file, file_size
   use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
   use base_kinds, only: wp, i8
   use base_status, only: status_t, fail, failed, status_file
@@ -23,6 +23,7 @@ module output_xdmf
   !> Text that is gathered and written many lines at a time.
   type :: text_t
     integer :: unit = -1, ios = 0, filled = 0
+    logical :: is_open = .false.
     integer(i8) :: written = 0_i8
     character(200) :: reason = 'is the disk full?'
     character(:), allocatable :: buffer, mesh
@@ -78,7 +79,11 @@ contains
     end if
     if (text%ios /= 0) &
         call fail(status, status_file, 'cannot write "'//path//'": '//trim(text%reason))
-    if (.not. failed(status)) call move_file(path//'.tmp', path, status)
+    if (text%ios == 0) then
+      call move_file(path//'.tmp', path, status)
+    else
+      call remove_file(path//'.tmp')
+    end if
   end subroutine write_xdmf
 
   !> What stays the same for all frames of a file.
@@ -123,9 +128,9 @@ contains
     type(field_t), intent(in) :: field
     type(template_t), intent(in) :: template
     integer, intent(in) :: at
-    integer :: first
-    first = 0
-    if (.not. field%constant) first = at*size(field%values, 2)
+    integer(i8) :: first
+    first = 0_i8
+    if (.not. field%constant) first = int(at, i8)*size(field%values, 2)
     call add(text, template%head)
     call add_integer(text, first)
     call add(text, template%middle)
@@ -139,6 +144,7 @@ contains
     allocate (character(text_size) :: text%buffer)
     open (newunit=text%unit, file=path, status='replace', action='write', access='stream', &
         form='unformatted', iostat=text%ios, iomsg=text%reason)
+    text%is_open = text%ios == 0
   end subroutine open_text
 
   subroutine add(text, part)
@@ -156,10 +162,14 @@ contains
 
   subroutine add_integer(text, number)
     type(text_t), intent(inout) :: text
-    integer, intent(in) :: number
+    integer(i8), intent(in) :: number
     character(12) :: digits
-    call put_integer(number, digits)
-    call add(text, digits(verify(digits, ' '):))
+    if (number > huge(1)) then
+      call add(text, to_text(number))
+    else
+      call put_integer(int(number), digits)
+      call add(text, digits(verify(digits, ' '):))
+    end if
   end subroutine add_integer
 
   subroutine add_real(text, number)
@@ -180,16 +190,22 @@ contains
 
   subroutine close_text(text)
     type(text_t), intent(inout) :: text
+    integer :: ignored
     call put(text)
-    if (text%ios == 0) close (text%unit, iostat=text%ios, iomsg=text%reason)
+    if (text%ios == 0) then
+      close (text%unit, iostat=text%ios, iomsg=text%reason)
+    else if (text%is_open) then
+      close (text%unit, iostat=ignored)
+    end if
   end subroutine close_text
 
-  !> Cells of one kind, or mixed: then the kinds stand in the text, for VTKHDF keeps them apart.
+  !> Cells of one kind, or mixed: then kinds (4 triangle, 5 quadrilateral) and nodes stand
+  !> in the text, for VTKHDF keeps them apart.
   function topology(mesh, file) result(text)
     type(mesh_t), intent(in) :: mesh
     character(*), intent(in) :: file
-    character(:), allocatable :: text
-    integer :: n, k
+    character(:), allocatable :: text, list
+    integer :: n, k, m, at
     n = size(mesh%kind)
     if (all(mesh%kind == 9) .or. all(mesh%kind == 5)) then
       text = '<Topology TopologyType="'//trim(merge('Quadrilateral', 'Triangle     ', &
@@ -203,23 +219,18 @@ contains
     text = '<Topology TopologyType="Mixed" NumberOfElements="'//to_text(n)// &
         '"><DataItem Dimensions="'//to_text(n + size(mesh%connectivity))// &
         '" NumberType="Int" Format="XML">'
+    allocate (character(12*(n + size(mesh%connectivity))) :: list)
+    at = 0
     do k = 1, n
-      text = text//cell(mesh, k)
+      call put_integer(merge(5, 4, mesh%kind(k) == 9), list(at + 1:at + 12))
+      at = at + 12
+      do m = mesh%offsets(k) + 1, mesh%offsets(k + 1)
+        call put_integer(mesh%connectivity(m), list(at + 1:at + 12))
+        at = at + 12
+      end do
     end do
-    text = text//'</DataItem></Topology>'
+    text = text//list//'</DataItem></Topology>'
   end function topology
-
-  !> Kind of a cell in XDMF (4 triangle, 5 quadrilateral) and its nodes.
-  function cell(mesh, k) result(text)
-    type(mesh_t), intent(in) :: mesh
-    integer, intent(in) :: k
-    character(:), allocatable :: text
-    integer :: m
-    text = ' '//trim(merge('5', '4', mesh%kind(k) == 9))
-    do m = mesh%offsets(k) + 1, mesh%offsets(k + 1)
-      text = text//' '//to_text(mesh%connectivity(m))
-    end do
-  end function cell
 
   pure function kind_of(components) result(text)
     integer, intent(in) :: components

@@ -2,9 +2,9 @@
 !> Field files of a run: segments of frames, and the XDMF file over all of them. Only scenes
 !> that ask for fields come here.
 module run_frames
-  use base_files, only: list_files, remove_file, path_length
+  use base_files, only: file_exists, list_files, remove_file, path_length
   use base_kinds, only: wp
-  use base_status, only: status_t, failed
+  use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
   use output_fields, only: make_fields, make_mesh, fill_fields, frame_is_due, next_frame
@@ -13,7 +13,7 @@ module run_frames
   use run_data, only: run_t
   implicit none
   private
-  public :: start_frames, keep_frame, end_segment, remove_segments
+  public :: start_frames, keep_frame, end_segment, check_segments, remove_segments
 
 contains
 
@@ -25,23 +25,27 @@ contains
     call make_mesh(run%model, run%fields, run%mesh)
   end subroutine start_frames
 
-  !> A frame, if it is due; the last step has one.
+  !> A frame, if it is due; the last step has one, also where the step has failed.
   subroutine keep_frame(run, last, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: last
     type(status_t), intent(inout) :: status
+    type(status_t) :: own
     logical :: first
     if (run%broken) return
     if (.not. frame_is_due(run%model, run%fields, run%state%time, run%scheme%h, last)) return
+    first = run%fields%frames == 0
+    if (.not. first) then
+      first = run%fields%segment_of(run%fields%frames) /= run%fields%segment
+      if (.not. run%fields%time(run%fields%frames) < run%state%time) return
+    end if
     call run%timers%enter(phase_output)
     call fill_fields(run%model, run%system, run%state, run%contact, run%fields)
-    first = run%fields%frames == 0
-    if (.not. first) &
-        first = run%fields%segment_of(run%fields%frames) /= run%fields%segment
-    if (first) call open_segment(run, status)
-    if (failed(status)) return
-    call run%storage%add_frame(run%state%time, run%fields%field, status)
-    call next_frame(run%model, run%state%time, run%scheme%h, run%fields)
+    if (first) call open_segment(run, own)
+    if (.not. failed(own)) call run%storage%add_frame(run%state%time, run%fields%field, own)
+    if (.not. failed(own)) &
+        call next_frame(run%model, run%state%time, run%scheme%h, run%fields)
+    if (.not. failed(status)) status = own
     call run%timers%enter(phase_other)
   end subroutine keep_frame
 
@@ -78,6 +82,20 @@ contains
     run%fields%segment = run%fields%segment + 1
     call write_xdmf(run%folder, run%mesh, run%fields, run%model%requests%field%single, status)
   end subroutine end_segment
+
+  !> Fails where a field file of the run so far is not there any more.
+  subroutine check_segments(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: path
+    integer :: k
+    if (failed(status)) return
+    do k = 0, run%fields%segment - 1
+      path = join_path(run%folder, segment_name(k))
+      if (.not. file_exists(path)) call fail(status, status_file, 'cannot go on: "'//path// &
+          '" of the run so far is missing')
+    end do
+  end subroutine check_segments
 
   !> Removes the field files of an earlier run from a folder: those of number `first` and
   !> higher.

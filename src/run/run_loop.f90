@@ -46,6 +46,7 @@ contains
       call advance(run, status)
       call tell(run, run%state%cycle == steps .or. failed(status), status)
       stopped = stop_asked()
+      stopped = stopped .and. run%state%cycle < steps
       if (run%plan%restarts) &
           call keep_restart(run, run%state%cycle == steps, stopped, status)
       if (stopped) call fail(status, status_stopped, 'stopped by a signal')

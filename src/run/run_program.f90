@@ -4,12 +4,12 @@
 !> restart files.
 module run_program
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-  use base_files, only: file_size
+  use base_files, only: file_size, remove_file
   use base_kinds, only: i8
   use base_signal, only: watch_limits, watch_signals
   use base_status, only: status_t, fail, failed, status_text, status_ok, status_stopped, &
       status_file
-  use base_strings, only: stem_of
+  use base_strings, only: stem_of, join_path
   use base_system, only: make_folder, leave, become_sibling
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
@@ -19,7 +19,7 @@ module run_program
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
   use run_data, only: run_t
-  use run_frames, only: start_frames, end_segment, remove_segments
+  use run_frames, only: start_frames, end_segment, check_segments, remove_segments
   use run_loop, only: go_through_steps
   use run_report, only: open_log, close_log, write_plan
   use run_restart, only: start_restarts, resume, remove_restarts
@@ -141,7 +141,7 @@ contains
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    type(status_t) :: closing
+    type(status_t) :: closing, last_frames
     character(:), allocatable :: ending
     call run%timers%enter(phase_output)
     call make_folder(run%folder, status)
@@ -152,6 +152,7 @@ contains
     call open_tables(run%tables, run%model, run%folder, run%scheme%has_acceleration, &
         allocated(run%restarted), status)
     if (failed(status)) return
+    call clear_storage(run)
     call run%timers%enter(phase_other)
     call watch_signals(run%plan%restarts .and. run%model%requests%restart%on_signal)
     call go_through_steps(run, status)
@@ -160,28 +161,39 @@ contains
     if (status%code == status_ok) ending = 'done'
     if (status%code == status_stopped) ending = 'stopped'
     call close_tables(run%tables, ending, run%state%cycle, closing)
-    if (run%plan%fields) call end_segment(run, closing)
+    if (run%plan%fields) call end_segment(run, last_frames)
     call run%timers%enter(phase_other)
-    if (.not. failed(status)) status = closing
+    if (.not. failed(closing)) closing = last_frames
+    ! A file that was lost says more than the signal that ended the run.
+    if (.not. failed(status) .or. (failed(closing) .and. status%code == status_stopped)) &
+        status = closing
     call close_log(run, status)
   end subroutine compute
 
-  !> Files of an earlier run go; or the run goes on from where one of them left it.
+  !> What fields and restarts need; the run goes on from where a restart file left it.
   subroutine start_storage(arguments, run, status)
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     if (run%plan%fields) call start_frames(run)
-    if (run%plan%restarts .or. allocated(arguments%restart)) call start_restarts(run)
-    if (allocated(arguments%restart)) then
-      call resume(run, arguments%restart, status)
-      if (failed(status)) return
+    if (run%plan%restarts .or. allocated(arguments%restart)) call start_restarts(run, status)
+    if (failed(status) .or. .not. allocated(arguments%restart)) return
+    call resume(run, arguments%restart, status)
+    if (run%plan%fields) call check_segments(run, status)
+  end subroutine start_storage
+
+  !> Files of an earlier run go, or those beyond the restart.
+  subroutine clear_storage(run)
+    type(run_t), intent(in) :: run
+    call remove_file(join_path(run%folder, 'restart.tmp'))
+    call remove_file(join_path(run%folder, 'fields.xdmf.tmp'))
+    if (allocated(run%restarted)) then
       call remove_restarts(run%folder, run%state%cycle)
       if (run%plan%fields) call remove_segments(run%folder, run%fields%segment)
     else
       call remove_restarts(run%folder, -1)
       call remove_segments(run%folder, 0)
     end if
-  end subroutine start_storage
+  end subroutine clear_storage
 
 end module run_program

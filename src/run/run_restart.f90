@@ -3,8 +3,9 @@
 !> Only scenes that ask for them come here.
 module run_restart
   use base_archive, only: archive_t, archive_save, archive_restore
-  use base_checksum, only: checksum_of_text
-  use base_files, only: list_files, move_file, remove_file, sync_file, path_length
+  use base_checksum, only: checksum_of_file
+  use base_files, only: open_text, close_text, list_files, move_file, remove_file, &
+      sync_file, path_length
   use base_kinds, only: wp, zero, i8
   use base_signal, only: restart_asked
   use base_status, only: status_t, fail, failed, status_text, status_file
@@ -30,29 +31,21 @@ module run_restart
 contains
 
   !> Hash of the deck as understood; the clock starts.
-  subroutine start_restarts(run)
+  subroutine start_restarts(run, status)
     type(run_t), intent(inout) :: run
-    run%deck_hash = hash_of_deck(run)
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: path
+    integer(i8) :: bytes
+    integer :: unit
+    path = join_path(run%folder, 'deck.echo.tmp')
+    call open_text(path, unit, status)
+    if (failed(status)) return
+    call write_echo(run%deck, unit)
+    call close_text(path, unit, status)
+    if (.not. failed(status)) call checksum_of_file(path, 0, run%deck_hash, bytes, status)
+    call remove_file(path)
     call system_clock(run%restart_tick)
   end subroutine start_restarts
-
-  function hash_of_deck(run) result(digits)
-    type(run_t), intent(in) :: run
-    character(16) :: digits
-    character(512) :: line
-    integer :: unit, ios
-    digits = ''
-    open (newunit=unit, status='scratch', action='readwrite', iostat=ios)
-    if (ios /= 0) return
-    call write_echo(run%deck, unit)
-    rewind (unit)
-    do
-      read (unit, '(a)', iostat=ios) line
-      if (ios /= 0) exit
-      digits = checksum_of_text(digits//trim(line))
-    end do
-    close (unit)
-  end function hash_of_deck
 
   !> A restart file, if one is due after this step; always where `stopped` by a signal.
   subroutine keep_restart(run, last, stopped, status)
@@ -88,6 +81,7 @@ contains
     call run%timers%enter(phase_output)
     call flush_tables(run%tables, status)
     if (run%plan%fields) call end_segment(run, status)
+    run%restart_files = run%restart_files + 1
     call archive%rewind(archive_save)
     call exchange_run(archive, run)
     header%cycle = run%state%cycle
@@ -100,10 +94,10 @@ contains
         call move_file(scratch, restart_path(run%folder, header%cycle), status)
     if (failed(status)) then
       call remove_file(scratch)
+      run%restart_files = run%restart_files - 1
     else
       call sync_file(run%folder, status)
       call drop_old(run%folder, run%model%requests%restart%keep)
-      run%restart_files = run%restart_files + 1
     end if
     call system_clock(run%restart_tick)
     call run%timers%enter(phase_other)

@@ -2,6 +2,7 @@
 !> Field files in the layout of VTKHDF (version 2.0): an unstructured grid with one mesh for all
 !> steps, the steps of each field stacked along its first axis.
 module store_fields
+  use base_files, only: remove_file
   use base_kinds, only: wp, i8
   use base_status, only: status_t, fail, failed, status_file
   use hdf5, only: hid_t, h5gopen_f, h5gclose_f, h5fflush_f, h5f_scope_global_f
@@ -20,6 +21,7 @@ module store_fields
     type(file_t) :: file
     logical :: is_open = .false.
     integer :: frames = 0
+    integer :: kept = 0                         !< frames on file
     integer :: nodes = 0, cells = 0
     integer(hid_t) :: count = -1                !< attribute NSteps
     type(series_t), allocatable :: field(:)
@@ -33,7 +35,8 @@ module store_fields
 
 contains
 
-  !> Begins a file with the mesh and the fields (their values are not yet written).
+  !> Begins a file with the mesh and the fields (their values are not yet written). None stays
+  !> where that fails.
   subroutine open_fields(path, mesh, fields, options, to, status)
     character(*), intent(in) :: path
     type(mesh_t), intent(in) :: mesh
@@ -41,11 +44,24 @@ contains
     type(segment_options_t), intent(in) :: options
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
-    integer(hid_t) :: root, steps
-    integer :: k, error
     call create_file(path, to%file, status)
     if (failed(status)) return
     to%is_open = .true.
+    call fill_file(mesh, fields, options, to, status)
+    if (.not. failed(status)) return
+    call close_file(to%file)
+    call remove_file(path)
+    to%is_open = .false.
+  end subroutine open_fields
+
+  subroutine fill_file(mesh, fields, options, to, status)
+    type(mesh_t), intent(in) :: mesh
+    type(field_t), intent(in) :: fields(:)
+    type(segment_options_t), intent(in) :: options
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: root, steps
+    integer :: k, error
     to%frames = 0
     to%list_chunk = max(1, min(longest_list, options%frames))
     to%nodes = size(mesh%points, 2)
@@ -76,7 +92,9 @@ contains
     do k = 1, size(fields)
       call open_field(fields(k), options, k, to, status)
     end do
-  end subroutine open_fields
+    to%kept = 0
+    if (.not. failed(status)) call flush_file(to, status)
+  end subroutine fill_file
 
   subroutine open_field(field, options, k, to, status)
     type(field_t), intent(in) :: field
@@ -140,14 +158,15 @@ contains
     type(status_t), intent(inout) :: status
     real(wp), parameter :: of_step(5) = [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     logical :: written
-    integer :: k, first
+    real(wp) :: first
+    integer :: k
     written = .false.
     do k = 1, size(fields)
-      first = 0
-      if (.not. fields(k)%constant) first = to%frames*size(fields(k)%values, 2)
+      first = 0.0_wp
+      if (.not. fields(k)%constant) first = real(to%frames, wp)*size(fields(k)%values, 2)
       if (.not. fields(k)%constant .or. to%frames == 0) &
           call append_rows(to%file, to%field(k), fields(k)%values, status)
-      call append_rows(to%file, to%offset(k), reshape([real(first, wp)], [1, 1]), status)
+      call append_rows(to%file, to%offset(k), reshape([first], [1, 1]), status)
       if (.not. fields(k)%constant) written = written .or. to%field(k)%held == 0
     end do
     call append_rows(to%file, to%times, reshape([time], [1, 1]), status)
@@ -161,7 +180,7 @@ contains
   subroutine flush_frames(to, status)
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
-    integer :: k, error
+    integer :: k
     do k = 1, size(to%field)
       call flush_series(to%file, to%field(k), status)
       call flush_series(to%file, to%offset(k), status)
@@ -170,13 +189,22 @@ contains
     do k = 1, size(lists)
       call flush_series(to%file, to%list(k), status)
     end do
+    if (failed(status)) return
     call write_attribute(to%count, int(to%frames, i8))
+    call flush_file(to, status)
+    if (.not. failed(status)) to%kept = to%frames
+  end subroutine flush_frames
+
+  subroutine flush_file(to, status)
+    type(fields_file_t), intent(inout) :: to
+    type(status_t), intent(inout) :: status
+    integer :: error
     call h5fflush_f(to%file%id, h5f_scope_global_f, error)
     if (error < 0) call fail(status, status_file, 'cannot write "'//to%file%name//'"', &
         hint='is the disk full, the folder gone or closed?')
-  end subroutine flush_frames
+  end subroutine flush_file
 
-  !> Ends the file.
+  !> Ends the file. One that has no frame to show, because writing failed, is removed.
   subroutine close_fields(to, status)
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
@@ -193,6 +221,7 @@ contains
     end do
     call close_attribute(to%count)
     call close_file(to%file, status)
+    if (failed(status) .and. to%kept == 0) call remove_file(to%file%name)
     to%is_open = .false.
   end subroutine close_fields
 

@@ -29,7 +29,7 @@ contains
     type(archive_t), intent(in) :: archive
     type(status_t), intent(inout) :: status
     type(file_t) :: file
-    character(4) :: number
+    character(8) :: number
     integer :: k
     call create_file(path, file, status, free)
     if (failed(status)) return
@@ -38,7 +38,7 @@ contains
     call write_reals(file, '/time', [header%time], status)
     call make_group(file, '/archive', status)
     do k = 1, archive%n
-      write (number, '(i4.4)') k
+      write (number, '(i8.8)') k
       call write_reals(file, '/archive/'//number//' '//trim(archive%entry(k)%name), &
           archive%entry(k)%values, status)
     end do
@@ -91,7 +91,7 @@ contains
     call list_members(file, '/archive', names)
     do k = 1, size(names)
       call read_reals(file, '/archive/'//trim(names(k)), values, status)
-      call archive%exchange(trim(names(k)(6:)), values)
+      call archive%exchange(trim(names(k)(10:)), values)
     end do
     call close_file(file)
     call archive%rewind(archive_restore)

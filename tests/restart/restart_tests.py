@@ -357,10 +357,12 @@ def refused():
     )
     code, errors, _ = bipact(deck, os.path.join(TMP, "empty"), "--restart", "latest")
     check(code == 3 and "no restart file" in errors, errors)
+    count = len(restart_files(folder))
     with open(os.path.join(folder, "rcforc.tab"), "w") as file:
         file.write("short\n")
-    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", restart_files(folder)[0])
     check(code == 3 and "lost rows" in errors, errors)
+    check(len(restart_files(folder)) == count, "a refused restart removes nothing")
 
 
 def limited(bytes_of_file=None, bytes_of_memory=None):
@@ -437,10 +439,36 @@ def faults():
             code, errors, _ = bipact(deck_f, folder, "--quiet", "--restart", "latest")
             check(code == 0, "after a full disk: %s" % errors)
             check(not differences(whole_f, contents(folder)), "after a full disk: the same end")
+    starved_fields(folder)
     full_disk(deck_f, whole_f)
     gone(folder)
     unwritable(deck, deck_f, folder, whole)
     memory(folder)
+
+
+def starved_fields(folder):
+    """Field files at every stage of their making: the library must not fall over what it could
+    not write, and what is left can be opened."""
+    path = os.path.join(TMP, "sliding.k")
+    make_scenes.write(path, "sliding", n=6, tend=1.0, courant=4.0)
+    with open(path) as file:
+        deck = write_deck("sliding", with_cards(file.read(), EVERY_FIELD % 0.02))
+    for limit in (15_000, 40_000, 80_000, 150_000, 300_000):
+        shutil.rmtree(folder, ignore_errors=True)
+        code, errors = starved(deck, folder, bytes_of_file=limit)
+        if code == 0:
+            continue
+        one_message(code, errors, "cannot write", "field file of %d bytes" % limit)
+        for left in glob.glob(os.path.join(folder, "fields.*")):
+            check(not left.endswith(".tmp"), "%s is left" % left)
+            if left.endswith(".vtkhdf"):
+                with h5py.File(left, "r") as file:
+                    group = file["VTKHDF"]
+                    frames = group["Steps"].attrs["NSteps"]
+                    rows = group["PointData/U"].shape[0]
+                    check(
+                        rows >= frames * group["Points"].shape[0], "frames that are not there"
+                    )
 
 
 def full_disk(deck, whole):
