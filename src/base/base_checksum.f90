@@ -7,7 +7,7 @@ module base_checksum
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: checksum_of_text, checksum_of_file
+  public :: checksum_of_text, checksum_of_words, checksum_of_file
 
   integer(i8), parameter :: modulus = 4294967291_i8
   integer, parameter :: piece = 8192      !< words summed before the sums are reduced
@@ -29,6 +29,19 @@ contains
     end do
     digits = as_digits(sums)
   end function checksum_of_text
+
+  !> Of whole words in memory.
+  function checksum_of_words(words) result(digits)
+    integer(i4), intent(in) :: words(:)
+    character(16) :: digits
+    integer(i8) :: sums(2)
+    integer :: k
+    sums = 0_i8
+    do k = 1, size(words), piece
+      call add_words(words(k:min(size(words), k + piece - 1)), sums)
+    end do
+    digits = as_digits(sums)
+  end function checksum_of_words
 
   !> Of the bytes of a file after the first `skip`; bytes is their number.
   subroutine checksum_of_file(path, skip, digits, bytes, status)

@@ -1,20 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Reading and writing plain arrays of an HDF5 file by path; failures say which path.
 module hdf5_file
-  use base_kinds, only: wp
+  use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
+  use base_kinds, only: wp, i4
   use base_status, only: status_t, fail, failed, status_deck, status_file
   use base_strings, only: to_text
-  use hdf5, only: hid_t, hsize_t, h5dont_atexit_f, h5open_f, h5fopen_f, &
-      h5fcreate_f, h5fclose_f, &
-      h5f_acc_rdonly_f, h5f_acc_trunc_f, h5eset_auto_f, h5lexists_f, h5dopen_f, h5dclose_f, &
+  use hdf5, only: hid_t, hsize_t, size_t, h5dont_atexit_f, h5open_f, h5fopen_f, &
+      h5fcreate_f, h5fclose_f, h5fflush_f, h5fget_file_image_f, h5f_acc_rdonly_f, &
+      h5f_acc_trunc_f, h5f_scope_global_f, h5eset_auto_f, h5lexists_f, h5dopen_f, h5dclose_f, &
       h5dget_space_f, h5sget_simple_extent_npoints_f, h5sclose_f, h5dread_f, h5dwrite_f, &
       h5dcreate_f, h5screate_simple_f, h5gcreate_f, h5gclose_f, h5t_native_integer, &
-      h5t_native_double, h5pcreate_f, h5pclose_f, h5pset_userblock_f, h5p_file_create_f, &
+      h5t_native_double, h5pcreate_f, h5pclose_f, h5pset_fapl_core_f, h5p_file_access_f, &
       h5gn_members_f, h5gget_obj_info_idx_f
   implicit none
   private
-  public :: start_library, open_file, create_file, close_file, has_path, read_integers, &
-      read_reals, make_group, write_integers, write_reals, list_members
+  public :: start_library, open_file, create_file, create_in_memory, take_image, close_file, &
+      has_path, read_integers, read_reals, make_group, write_integers, write_reals, list_members
 
   type, public :: file_t
     integer(hid_t) :: id = -1
@@ -41,23 +42,57 @@ contains
         '": it is no HDF5 file, or a part of one')
   end subroutine open_file
 
-  !> Creates an HDF5 file; one of that name is replaced. The library leaves the first `free`
-  !> bytes (0, or 512 and more) to the program.
-  subroutine create_file(name, file, status, free)
+  !> Creates an HDF5 file; one of that name is replaced.
+  subroutine create_file(name, file, status)
     character(*), intent(in) :: name
     type(file_t), intent(out) :: file
     type(status_t), intent(inout) :: status
-    integer, intent(in), optional :: free
-    integer(hid_t) :: creation
     integer :: error
     file%name = name
-    call h5pcreate_f(h5p_file_create_f, creation, error)
-    if (present(free)) call h5pset_userblock_f(creation, int(free, hsize_t), error)
-    call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error, creation)
+    call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error)
     if (error < 0) call fail(status, status_file, 'cannot write "'//name//'"', &
         hint='is the folder there and writable?')
-    call h5pclose_f(creation, error)
   end subroutine create_file
+
+  !> Begins an HDF5 file that stays in memory until take_image; `name` is for messages alone.
+  subroutine create_in_memory(name, file, status)
+    character(*), intent(in) :: name
+    type(file_t), intent(out) :: file
+    type(status_t), intent(inout) :: status
+    integer(size_t), parameter :: growth = 65536_size_t
+    integer(hid_t) :: access
+    integer :: error
+    file%name = name
+    call h5pcreate_f(h5p_file_access_f, access, error)
+    call h5pset_fapl_core_f(access, growth, .false., error)
+    call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error, access_prp=access)
+    if (error < 0) call fail(status, status_file, 'not enough memory to write "'//name//'"')
+    call h5pclose_f(access, error)
+  end subroutine create_in_memory
+
+  !> All bytes of a file in memory, with zeros up to a whole word; the file ends.
+  subroutine take_image(file, image, status)
+    type(file_t), intent(inout) :: file
+    integer(i4), allocatable, target, intent(out) :: image(:)
+    type(status_t), intent(inout) :: status
+    integer(size_t) :: bytes
+    integer :: error, stat
+    type(c_ptr) :: place
+    bytes = 0_size_t
+    place = c_null_ptr
+    call h5fflush_f(file%id, h5f_scope_global_f, error)
+    if (error >= 0) call h5fget_file_image_f(file%id, place, 0_size_t, error, bytes)
+    allocate (image((bytes + 3_size_t)/4_size_t), source=0_i4, stat=stat)
+    if (stat /= 0) then
+      allocate (image(0))
+      error = -1
+    end if
+    place = c_loc(image)
+    if (error >= 0) call h5fget_file_image_f(file%id, place, bytes, error)
+    if (error < 0) call fail(status, status_file, 'not enough memory to write "'// &
+        file%name//'"')
+    call close_file(file, status)
+  end subroutine take_image
 
   !> Once, before all else: again it would make all its types again. Errors become statuses.
   subroutine start_library()

@@ -14,6 +14,8 @@ module output_tables
       table_elout = 4, table_rcforc = 5, table_sleout = 6, table_spcforc = 7, &
       table_ncforc = 8, table_timing = 9, table_rwforc = 10
   integer, parameter :: table_count = 10
+  character(*), parameter :: names(table_count) = [character(7) :: 'glstat', 'matsum', &
+      'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', 'rwforc']
 
   type, public :: tables_t
     type(table_file_t) :: file(table_count)
@@ -21,7 +23,7 @@ module output_tables
     logical :: any_on = .false.
   end type tables_t
 
-  public :: flush_tables, exchange_tables
+  public :: flush_tables, exchange_tables, check_tables
   public :: open_tables, any_due, energies_due, close_tables, add_numbers
 
 contains
@@ -34,56 +36,70 @@ contains
     logical, intent(in) :: has_acceleration, again
     type(status_t), intent(inout) :: status
     character(:), allocatable :: more
-    integer :: pass
+    real(wp) :: interval(table_count)
     more = ''
     if (has_acceleration) more = ' ax ay az'
-    do pass = merge(1, 2, again), 2   ! first whether all are there, then what changes them
-      if (failed(status)) return
-      associate (r => model%requests)
-        call open_one(table_glstat, 'glstat', r%glstat, &
-            'time cycle dt kinetic internal total '// &
-            'initial external motion friction contact unsolved algorithmic damping '// &
-            'residual ratio momx momy momz angx angy angz')
-        call open_one(table_matsum, 'matsum', r%matsum, &
-            'time part mass kinetic internal momx momy momz vx vy vz')
-        call open_one(table_nodout, 'nodout', r%nodout, &
-            'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more)
-        call open_one(table_elout, 'elout', r%elout, &
-            'time element part sxx syy szz sxy syz szx energy')
-        call open_one(table_rcforc, 'rcforc', r%rcforc, 'time contact side fx fy fz fmx '// &
-            'fmy fmz ix iy iz fn ft nactive nstick nslip gapmin')
-        call open_one(table_rwforc, 'rwforc', r%rwforc, 'time wall fx fy fz fmx fmy fmz '// &
-            'ix iy iz fn ft nactive nstick nslip gapmin')
-        call open_one(table_sleout, 'sleout', r%sleout, &
-            'time contact normalwork frictionwork '// &
-            'solves sweeps eta error error2018 penetration')
-        call open_one(table_spcforc, 'spcforc', r%spcforc, 'time node fx fy fz')
-        call open_one(table_ncforc, 'ncforc', r%ncforc, &
-            'time contact side node fx fy fz fmx fmy fmz pressure gap slip status')
-        call open_one(table_timing, 'timing', r%timing, &
-            'time cycle cpu input assemble factor '// &
-            'solve search contact output factors solves sweeps')
-      end associate
-    end do
+    interval = intervals(model)
+    call open_one(table_glstat, 'time cycle dt kinetic internal total '// &
+        'initial external motion friction contact unsolved algorithmic damping '// &
+        'residual ratio momx momy momz angx angy angz')
+    call open_one(table_matsum, 'time part mass kinetic internal momx momy momz vx vy vz')
+    call open_one(table_nodout, 'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more)
+    call open_one(table_elout, 'time element part sxx syy szz sxy syz szx energy')
+    call open_one(table_rcforc, 'time contact side fx fy fz fmx '// &
+        'fmy fmz ix iy iz fn ft nactive nstick nslip gapmin')
+    call open_one(table_rwforc, 'time wall fx fy fz fmx fmy fmz '// &
+        'ix iy iz fn ft nactive nstick nslip gapmin')
+    call open_one(table_sleout, 'time contact normalwork frictionwork '// &
+        'solves sweeps eta error error2018 penetration')
+    call open_one(table_spcforc, 'time node fx fy fz')
+    call open_one(table_ncforc, &
+        'time contact side node fx fy fz fmx fmy fmz pressure gap slip status')
+    call open_one(table_timing, 'time cycle cpu input assemble factor '// &
+        'solve search contact output factors solves sweeps')
     tables%any_on = any(tables%file%on)
     if (tables%any_on) call make_real_writer(tables%writer)
 
   contains
 
-    subroutine open_one(k, name, interval, columns)
+    subroutine open_one(k, columns)
       integer, intent(in) :: k
-      character(*), intent(in) :: name, columns
-      real(wp), intent(in) :: interval
-      if (again .and. pass == 1) then
-        call check_rows(tables%file(k), folder, name, interval, status)
-        return
+      character(*), intent(in) :: columns
+      if (failed(status)) return
+      if (again) then
+        call reopen_table(tables%file(k), folder, trim(names(k)), interval(k), status)
+      else
+        call open_table(tables%file(k), folder, trim(names(k)), interval(k), model%title, &
+            columns, status)
       end if
-      if (again) call reopen_table(tables%file(k), folder, name, interval, status)
-      if (.not. again) call open_table(tables%file(k), folder, name, interval, model%title, &
-          columns, status)
     end subroutine open_one
 
   end subroutine open_tables
+
+  !> Intervals of the rows [T] in the order of the tables; 0: no table.
+  pure function intervals(model) result(interval)
+    type(model_t), intent(in) :: model
+    real(wp) :: interval(table_count)
+    associate (r => model%requests)
+      interval = [r%glstat, r%matsum, r%nodout, r%elout, r%rcforc, r%sleout, r%spcforc, &
+          r%ncforc, r%timing, r%rwforc]
+    end associate
+  end function intervals
+
+  !> Fails where a table has not all rows any more that a run which is to go on had written.
+  subroutine check_tables(tables, model, folder, status)
+    type(tables_t), intent(in) :: tables
+    type(model_t), intent(in) :: model
+    character(*), intent(in) :: folder
+    type(status_t), intent(inout) :: status
+    real(wp) :: interval(table_count)
+    integer :: k
+    interval = intervals(model)
+    do k = 1, table_count
+      if (.not. failed(status)) &
+          call check_rows(tables%file(k), folder, trim(names(k)), interval(k), status)
+    end do
+  end subroutine check_tables
 
   !> Brings all rows to the files.
   subroutine flush_tables(tables, status)

@@ -19,7 +19,7 @@ module run_program
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
   use run_data, only: run_t
-  use run_frames, only: start_frames, end_segment, check_segments, remove_segments
+  use run_frames, only: start_frames, end_segment, remove_segments
   use run_loop, only: go_through_steps
   use run_report, only: open_log, close_log, write_plan
   use run_restart, only: start_restarts, resume, remove_restarts
@@ -179,7 +179,7 @@ contains
     if (run%plan%restarts .or. allocated(arguments%restart)) call start_restarts(run, status)
     if (failed(status) .or. .not. allocated(arguments%restart)) return
     call resume(run, arguments%restart, status)
-    if (run%plan%fields) call check_segments(run, status)
+    if (failed(status)) call remove_file(join_path(run%folder, 'deck.echo.tmp'))
   end subroutine start_storage
 
   !> Files of an earlier run go, or those beyond the restart.

@@ -2,7 +2,7 @@
 !> The log, the echo deck and the closing summary.
 module run_report
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use base_files, only: open_text, close_text
+  use base_files, only: open_text, close_text, move_file
   use base_kinds, only: wp, zero, i8
   use base_status, only: status_t, failed, status_text
   use base_strings, only: to_text, join_path
@@ -22,11 +22,8 @@ contains
   subroutine open_log(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    integer :: unit
-    call open_text(join_path(run%folder, 'deck.echo.k'), unit, status)
+    call keep_echo(run, status)
     if (failed(status)) return
-    call write_echo(run%deck, unit)
-    call close_text(join_path(run%folder, 'deck.echo.k'), unit, status)
     call open_text(join_path(run%folder, 'bipact.log'), run%log_unit, status)
     if (failed(status)) return
     write (run%log_unit, '(a)') 'bipact '//version
@@ -40,6 +37,23 @@ contains
         run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)// &
         ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications'
   end subroutine open_log
+
+  !> deck.echo.k: the deck as understood. Where its hash was taken it is there already.
+  subroutine keep_echo(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: path
+    integer :: unit
+    path = join_path(run%folder, 'deck.echo.k')
+    if (run%deck_hash /= '') then
+      call move_file(join_path(run%folder, 'deck.echo.tmp'), path, status)
+      return
+    end if
+    call open_text(path, unit, status)
+    if (failed(status)) return
+    call write_echo(run%deck, unit)
+    call close_text(path, unit, status)
+  end subroutine keep_echo
 
   !> The scene plan: size, scheme, features with their reasons.
   subroutine write_plan(run, unit)

@@ -18,9 +18,9 @@ module run_restart
   use model_state, only: exchange_state
   use output_fields, only: fields_t
   use output_storage, only: restart_header_t
-  use output_tables, only: flush_tables, exchange_tables
+  use output_tables, only: flush_tables, exchange_tables, check_tables
   use run_data, only: run_t
-  use run_frames, only: end_segment
+  use run_frames, only: end_segment, check_segments
   use run_motion, only: hold_active
   use run_setup, only: factor_matrix
   use time_ledger, only: exchange_ledger
@@ -30,7 +30,9 @@ module run_restart
 
 contains
 
-  !> Hash of the deck as understood; the clock starts.
+  !> Hash of the deck as understood, which is written as deck.echo.tmp for that and becomes
+  !> deck.echo.k with the log: a restart that is refused leaves the folder as it was. The clock
+  !> starts.
   subroutine start_restarts(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
@@ -43,7 +45,7 @@ contains
     call write_echo(run%deck, unit)
     call close_text(path, unit, status)
     if (.not. failed(status)) call checksum_of_file(path, 0, run%deck_hash, bytes, status)
-    call remove_file(path)
+    if (failed(status)) call remove_file(path)
     call system_clock(run%restart_tick)
   end subroutine start_restarts
 
@@ -182,34 +184,61 @@ contains
   end subroutine exchange_frames
 
   !> Puts a run that has been set up to where a restart file left it. file: its path, or
-  !> "latest": the newest good one in the folder of the run.
+  !> "latest": the newest in the folder of the run that can be gone on from.
   subroutine resume(run, file, status)
     type(run_t), intent(inout) :: run
     character(*), intent(in) :: file
     type(status_t), intent(inout) :: status
-    type(archive_t) :: archive
+    if (file == 'latest') then
+      call restore_latest(run, status)
+    else
+      call restore(run, file, status)
+    end if
+    if (.not. failed(status)) call factor_again(run, status)
+  end subroutine resume
+
+  !> Tries one after the other from the newest; the log will tell why some were passed over.
+  !> Where none will do, the reason of the newest is given.
+  subroutine restore_latest(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
     character(path_length), allocatable :: paths(:)
     type(status_t) :: trial
     integer :: k
-    if (file /= 'latest') then
-      call load(run, file, archive, status)
-      run%restarted = file
+    call list_files(run%folder, 'restart.??????????.h5', paths)
+    if (size(paths) == 0) call fail(status, status_file, 'no restart file in "'// &
+        run%folder//'"', hint='*BIPACT_RESTART makes a run write them')
+    do k = size(paths), 1, -1
+      trial = status_t()
+      call restore(run, trim(paths(k)), trial)
+      if (.not. failed(trial)) exit
+      if (.not. failed(status)) status = trial
+      call add_note(run%deck%problems, 'restart: '//status_text(trial))
+    end do
+    if (size(paths) == 0) return
+    if (failed(trial)) then
+      status%hint = 'none of the '//to_text(size(paths))//' restart files there can be used'
     else
-      call list_files(run%folder, 'restart.??????????.h5', paths)
-      do k = size(paths), 1, -1
-        trial = status_t()
-        call load(run, trim(paths(k)), archive, trial)
-        run%restarted = trim(paths(k))
-        if (.not. failed(trial)) exit
-        call add_note(run%deck%problems, 'restart: '//status_text(trial))
-      end do
-      if (size(paths) == 0) call fail(status, status_file, 'no restart file in "'// &
-          run%folder//'"', hint='*BIPACT_RESTART makes a run write them')
-      if (failed(trial)) status = trial
+      status = trial
     end if
+  end subroutine restore_latest
+
+  !> The state of a run from a restart file; fails where it, or what lies beside it, will not
+  !> do.
+  subroutine restore(run, path, status)
+    type(run_t), intent(inout) :: run
+    character(*), intent(in) :: path
+    type(status_t), intent(inout) :: status
+    type(archive_t) :: archive
+    call load(run, path, archive, status)
     if (failed(status)) return
-    call restore(run, archive, status)
-  end subroutine resume
+    run%restarted = path
+    call archive%rewind(archive_restore)
+    call exchange_run(archive, run)
+    status = archive%status
+    call check_tables(run%tables, run%model, run%folder, status)
+    if (run%plan%fields) call check_segments(run, status)
+  end subroutine restore
 
   subroutine load(run, path, archive, status)
     type(run_t), intent(inout) :: run
@@ -226,23 +255,18 @@ contains
         hint='the deck, its includes and -D must be those of the run that wrote it')
   end subroutine load
 
-  !> From the archive; the matrix is factored for the block of nodes and the held dofs that were
-  !> in force then, and the counts are those of the run that stopped.
-  subroutine restore(run, archive, status)
+  !> The matrix is factored for the block of nodes and the held dofs that were in force then,
+  !> and the counts are those of the run that stopped.
+  subroutine factor_again(run, status)
     type(run_t), intent(inout) :: run
-    type(archive_t), intent(inout) :: archive
     type(status_t), intent(inout) :: status
     integer :: counts(2)
-    call archive%rewind(archive_restore)
-    call exchange_run(archive, run)
-    if (.not. failed(status)) status = archive%status
-    if (failed(status)) return
     if (run%plan%motions) call hold_active(run)
     counts = [run%factors, run%analyses]
     call factor_matrix(run, .true., status)
     run%factors = counts(1)
     run%analyses = counts(2)
     call system_clock(run%restart_tick)
-  end subroutine restore
+  end subroutine factor_again
 
 end module run_restart

@@ -4,13 +4,13 @@
 !> A file that does not agree with them never comes before the library.
 module store_restart
   use base_archive, only: archive_t, archive_restore, archive_save
-  use base_checksum, only: checksum_of_file, checksum_of_text
-  use base_files, only: file_exists, sync_file
-  use base_kinds, only: wp, i8
+  use base_checksum, only: checksum_of_file, checksum_of_text, checksum_of_words
+  use base_files, only: file_exists, file_size, sync_file
+  use base_kinds, only: wp, i4, i8
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: to_text
-  use hdf5_file, only: file_t, create_file, open_file, close_file, make_group, write_reals, &
-      read_reals, list_members
+  use hdf5_file, only: file_t, create_in_memory, take_image, open_file, close_file, &
+      make_group, write_reals, read_reals, list_members
   use hdf5_series, only: write_text_attribute
   use output_storage, only: restart_header_t
   implicit none
@@ -22,16 +22,18 @@ module store_restart
 
 contains
 
-  !> A whole file at path, on the disk.
+  !> A whole file at path, on the disk. It is made in memory: one stroke of writing, and the
+  !> checksum without reading it again.
   subroutine write_restart_file(path, header, archive, status)
     character(*), intent(in) :: path
     type(restart_header_t), intent(in) :: header
     type(archive_t), intent(in) :: archive
     type(status_t), intent(inout) :: status
     type(file_t) :: file
+    integer(i4), allocatable :: image(:)
     character(8) :: number
     integer :: k
-    call create_file(path, file, status, free)
+    call create_in_memory(path, file, status)
     if (failed(status)) return
     call write_text_attribute(file%id, 'version', header%version)
     call write_text_attribute(file%id, 'deck', header%deck_hash)
@@ -42,36 +44,41 @@ contains
       call write_reals(file, '/archive/'//number//' '//trim(archive%entry(k)%name), &
           archive%entry(k)%values, status)
     end do
-    call close_file(file, status)
-    call write_head(path, header, status)
+    call take_image(file, image, status)
+    if (.not. failed(status)) call write_image(path, header, image, status)
     if (.not. failed(status)) call sync_file(path, status)
   end subroutine write_restart_file
 
-  !> The text before the HDF5 file.
-  subroutine write_head(path, header, status)
+  !> The text in front, and the HDF5 file behind it.
+  subroutine write_image(path, header, image, status)
     character(*), intent(in) :: path
     type(restart_header_t), intent(in) :: header
+    integer(i4), intent(in) :: image(:)
     type(status_t), intent(inout) :: status
     character(free) :: text
     character(200) :: reason
-    character(16) :: digits
-    integer(i8) :: bytes
+    integer(i8) :: bytes, there
     integer :: unit, ios
-    if (failed(status)) return
-    call checksum_of_file(path, free, digits, bytes, status)
-    if (failed(status)) return
+    bytes = 4_i8*size(image, kind=i8)
     write (text, '(a,a,i4,a,a16,a,i12,a,es24.16e3,a,i18,a,a16,2a)') magic, ' format ', &
         format_number, ' deck ', header%deck_hash, ' cycle ', header%cycle, ' time ', &
-        header%time, ' bytes ', bytes, ' checksum ', digits, ' version ', header%version
+        header%time, ' bytes ', bytes, ' checksum ', checksum_of_words(image), ' version ', &
+        header%version
     text(head + 1:head + 16) = checksum_of_text(text(:head))
     text(free:) = new_line('a')
-    open (newunit=unit, file=path, access='stream', form='unformatted', status='old', &
-        action='readwrite', iostat=ios, iomsg=reason)
-    if (ios == 0) write (unit, pos=1, iostat=ios, iomsg=reason) text
-    if (ios == 0) close (unit, iostat=ios, iomsg=reason)
+    open (newunit=unit, file=path, access='stream', form='unformatted', status='replace', &
+        action='write', iostat=ios, iomsg=reason)
+    if (ios == 0) then
+      write (unit, iostat=ios, iomsg=reason) text, image
+      close (unit)
+      ! What a full disk has refused is seen nowhere else.
+      there = file_size(path)
+      if (ios == 0 .and. there /= free + bytes) reason = 'is the disk full?'
+      if (there /= free + bytes) ios = 1
+    end if
     if (ios /= 0) &
         call fail(status, status_file, 'cannot write "'//path//'": '//trim(reason))
-  end subroutine write_head
+  end subroutine write_image
 
   !> Reads a file into header and archive; fails with what is wrong with it.
   subroutine read_restart_file(path, header, archive, status)

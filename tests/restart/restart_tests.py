@@ -355,6 +355,7 @@ def refused():
         os.path.basename(files[-3]) in text and "checksum" in text,
         "the log tells which, and why",
     )
+    lost_rows(deck, folder, whole)
     code, errors, _ = bipact(deck, os.path.join(TMP, "empty"), "--restart", "latest")
     check(code == 3 and "no restart file" in errors, errors)
     count = len(restart_files(folder))
@@ -362,7 +363,22 @@ def refused():
         file.write("short\n")
     code, errors, _ = bipact(deck, folder, "--quiet", "--restart", restart_files(folder)[0])
     check(code == 3 and "lost rows" in errors, errors)
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+    check(code == 3 and "none of the %d restart files" % count in errors, errors)
     check(len(restart_files(folder)) == count, "a refused restart removes nothing")
+    check(not os.path.exists(os.path.join(folder, "deck.echo.tmp")), "nor leaves anything")
+
+
+def lost_rows(deck, folder, whole):
+    """A table whose end did not reach the disk, as after a loss of power: latest goes back to a
+    restart file from before that."""
+    table = os.path.join(folder, "glstat.tab")
+    os.truncate(table, int(0.6 * os.path.getsize(table)))
+    code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+    check(code == 0, "lost rows: %s" % errors)
+    check(not differences(whole, contents(folder)), "lost rows: the same end")
+    with open(os.path.join(folder, "bipact.log")) as log:
+        check("lost rows" in log.read(), "lost rows: the log tells")
 
 
 def limited(bytes_of_file=None, bytes_of_memory=None):

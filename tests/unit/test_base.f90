@@ -2,11 +2,11 @@
 !> Numbers as text, sorting, the archive, words and failures.
 program test_base
   use base_archive, only: archive_t, archive_save, archive_restore
-  use base_checksum, only: checksum_of_text, checksum_of_file
+  use base_checksum, only: checksum_of_text, checksum_of_words, checksum_of_file
   use base_files, only: file_exists, file_size, move_file, remove_file, cut_file, sync_file, &
       list_files, open_text, close_text, path_length
   use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
-  use base_kinds, only: wp, i8
+  use base_kinds, only: wp, i4, i8
   use base_sort, only: sort_order, sort_integers, find_sorted
   use base_status, only: status_t, fail, failed, add_place, status_text, status_deck, &
       status_file, status_ok
@@ -258,6 +258,7 @@ contains
       text(k:k) = achar(modulo(37*k, 251))
     end do
     digits = checksum_of_text(text)
+    call check_equal(checksum_of_words(transfer(text, [0_i4])), digits, 'words as their text')
     same = 0
     do k = 1, 300
       at = 1 + modulo(7919*k, len(text))
