@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What an element type offers: matrices of one element from plain arrays, no mesh.
 module element_base
-  use base_kinds, only: wp
+  use base_kinds, only: wp, zero
   implicit none
   private
 
@@ -13,7 +13,8 @@ module element_base
     procedure(mass_i), deferred :: mass
     procedure(widths_i), deferred :: widths
     procedure(area_i), deferred :: smallest_jacobian
-    procedure(strain_i), deferred :: mean_strain
+    procedure(strain_i), deferred :: mean_strain_matrix
+    procedure :: mean_strain => element_mean_strain
   end type element_t
 
   !> An element in a list of elements of several kinds.
@@ -57,14 +58,31 @@ module element_base
       real(wp), intent(in) :: x(:, :)
       real(wp) :: j
     end function area_i
-    !> Mean strain (exx, eyy, gxy) over the Gauss points, from displacements u (2, n) [L].
-    pure function strain_i(this, x, u) result(strain)
+    !> Mean over the Gauss points of B (3, 2n) [1/L]: strains (exx, eyy, gxy) of unit
+    !> displacements, dofs ordered node by node.
+    pure subroutine strain_i(this, x, b)
       import :: element_t, wp
       class(element_t), intent(in) :: this
       real(wp), intent(in) :: x(:, :)
-      real(wp), intent(in) :: u(:, :)
-      real(wp) :: strain(3)
-    end function strain_i
+      real(wp), intent(out) :: b(:, :)
+    end subroutine strain_i
   end interface
+
+contains
+
+  !> Mean strain (exx, eyy, gxy) of displacements u (2, n) [L]; a translation of the element is
+  !> taken off first.
+  pure function element_mean_strain(this, x, u) result(strain)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: u(:, :)
+    real(wp) :: strain(3), b(3, 2*size(u, 2))
+    integer :: i
+    call this%mean_strain_matrix(x, b)
+    strain = zero
+    do i = 2, size(u, 2)
+      strain = strain + matmul(b(:, 2*i - 1:2*i), u(:, i) - u(:, 1))
+    end do
+  end function element_mean_strain
 
 end module element_base

@@ -12,7 +12,7 @@ module element_quad4
     procedure :: mass => quad4_mass
     procedure :: widths => quad4_widths
     procedure :: smallest_jacobian => quad4_smallest_jacobian
-    procedure :: mean_strain => quad4_mean_strain
+    procedure :: mean_strain_matrix => quad4_mean_strain_matrix
   end type quad4_t
 
   real(wp), parameter :: gauss = one/sqrt(3.0_wp)
@@ -77,20 +77,20 @@ contains
     b(3, 2::2) = dn(:, 1)
   end function strain_matrix
 
-  !> Mean over the four points; a translation of the element is taken off first.
-  pure function quad4_mean_strain(this, x, u) result(strain)
+  !> Mean of B over the four points.
+  pure subroutine quad4_mean_strain_matrix(this, x, b)
     class(quad4_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp), intent(in) :: u(:, :)
-    real(wp) :: strain(3), dn(4, 2), det_j, relative(8)
+    real(wp), intent(out) :: b(:, :)
+    real(wp) :: dn(4, 2), det_j, mean(4, 2)
     integer :: k
-    relative = [(u(:, k) - u(:, 1), k=1, 4)]
-    strain = zero
+    mean = zero
     do k = 1, 4
       call gradients(x, gauss*[corner_1(k), corner_2(k)], dn, det_j)
-      strain = strain + 0.25_wp*matmul(strain_matrix(dn), relative)
+      mean = mean + 0.25_wp*dn
     end do
-  end function quad4_mean_strain
+    b = strain_matrix(mean)
+  end subroutine quad4_mean_strain_matrix
 
   !> Four points (+-a1, +-a2), weight one: a = 1/sqrt(3) is the consistent mass, a = 1 the
   !> lumped one, between them the modified rules of Guddati & Yue (2004).

@@ -12,7 +12,7 @@ module element_tri3
     procedure :: mass => tri3_mass
     procedure :: widths => tri3_widths
     procedure :: smallest_jacobian => tri3_smallest_jacobian
-    procedure :: mean_strain => tri3_mean_strain
+    procedure :: mean_strain_matrix => tri3_mean_strain_matrix
   end type tri3_t
 
 contains
@@ -53,19 +53,13 @@ contains
     end do
   end function strain_matrix
 
-  !> The strain is constant; a translation of the element is taken off first.
-  pure function tri3_mean_strain(this, x, u) result(strain)
+  !> The strain is constant.
+  pure subroutine tri3_mean_strain_matrix(this, x, b)
     class(tri3_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp), intent(in) :: u(:, :)
-    real(wp) :: strain(3), b(3, 6)
-    integer :: i
+    real(wp), intent(out) :: b(:, :)
     b = strain_matrix(x)
-    strain = 0.0_wp
-    do i = 2, 3
-      strain = strain + matmul(b(:, 2*i - 1:2*i), u(:, i) - u(:, 1))
-    end do
-  end function tri3_mean_strain
+  end subroutine tri3_mean_strain_matrix
 
   !> Exact integral of N N'; the rule of integration points (a) is that of quadrilaterals.
   pure subroutine tri3_mass(this, x, density, thickness, a, me)

@@ -98,30 +98,28 @@ contains
     type(model_t), intent(in) :: model
     type(fields_t), intent(inout) :: fields
     class(element_t), allocatable :: element
-    real(wp) :: u(2, 4), stress(3)
-    integer :: k, e, n, c
+    real(wp) :: b(3, 8), stress(3)
+    integer :: k, c, n, corners
     if (allocated(fields%stress_of)) return
     allocate (fields%stress_of(4, 8, size(fields%cell)))
     fields%stress_of = zero
     fields%corner = model%connectivity(:, fields%cell)
+    corners = 0
     do k = 1, size(fields%cell)
-      e = fields%cell(k)
-      n = corner_count(model%connectivity(:, e))
-      call make_element(n, element)
-      associate (part => model%part(model%element_part(e)), &
-          corner => model%connectivity(1:n, e))
+      n = corner_count(fields%corner(:, k))
+      if (n /= corners) call make_element(n, element)
+      corners = n
+      associate (part => model%part(model%element_part(fields%cell(k))))
         associate (material => model%material(part%material)%item)
+          call element%mean_strain_matrix(model%x(:, fields%corner(1:n, k)), b(:, 1:2*n))
+          b(:, 1:2*n) = matmul(material%moduli(part%plane), b(:, 1:2*n))
           do c = 1, 2*n
-            u = zero
-            u(2 - mod(c, 2), (c + 1)/2) = 1.0_wp
-            stress = matmul(material%moduli(part%plane), &
-                element%mean_strain(model%x(:, corner), u(:, 1:n)))
+            stress = b(:, c)
             fields%stress_of(:, c, k) = [stress(1), stress(2), &
                 material%stress_across(part%plane, stress), stress(3)]
           end do
         end associate
       end associate
-      deallocate (element)
     end do
   end subroutine make_stress
 
