@@ -5,6 +5,7 @@ module contact_archive
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp
   use cone_types, only: certificate_t
+  use contact_condense, only: size_flexibility
   use contact_types, only: contact_t, pair_t, candidate_t, node_forces_t
   implicit none
   private
@@ -63,8 +64,7 @@ contains
     if (size(contact%block) == counts(3)) return
     deallocate (contact%block)
     allocate (contact%block(counts(3)))
-    if (allocated(contact%flexibility)) deallocate (contact%flexibility)
-    allocate (contact%flexibility(2*counts(3), 2*counts(3)))
+    call size_flexibility(contact)
   end subroutine size_lists
 
   !> One column a candidate; indices and flags are exact as reals.

@@ -10,8 +10,8 @@ module contact_condense
   use contact_wall, only: update_wall_candidate
   implicit none
   private
-  public :: block_outgrown, make_block, track_candidates, build_w, relative_motion, &
-      spread_force, subtract_contact_force
+  public :: block_outgrown, make_block, size_flexibility, track_candidates, build_w, &
+      relative_motion, spread_force, subtract_contact_force
 
 contains
 
@@ -54,10 +54,18 @@ contains
     contact%block_row = 0
     contact%block_row(contact%block) = [(k, k=1, size(contact%block))]
     contact%block_changes = contact%block_changes + 1
-    if (allocated(contact%flexibility)) deallocate (contact%flexibility)
-    allocate (contact%flexibility(2*size(contact%block), 2*size(contact%block)))
-    contact%w_is_current = .false.
+    call size_flexibility(contact)
   end subroutine make_block
+
+  !> S^-1 for the block as it is, yet to be filled.
+  subroutine size_flexibility(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: dofs
+    dofs = 2*size(contact%block)
+    if (allocated(contact%flexibility)) deallocate (contact%flexibility, contact%column)
+    allocate (contact%flexibility(dofs, dofs), contact%column(dofs))
+    contact%w_is_current = .false.
+  end subroutine size_flexibility
 
   !> Brings every candidate to the place its node faces at the start of a step ending at time
   !> t1.
@@ -86,93 +94,104 @@ contains
   !> both sides are held (W_nn = 0) have no row.
   subroutine build_w(contact)
     type(contact_t), intent(inout) :: contact
-    real(wp) :: scale
-    integer :: i, j, n, d
+    integer :: i, k
     if (contact%w_is_current) return
     contact%w_builds = contact%w_builds + 1
     contact%w_is_current = .true.
+    call mark_held(contact)
+    call size_rows(contact, count(contact%candidate(:contact%n)%valid .and. &
+        .not. contact%candidate(:contact%n)%held))
+    k = 0
+    do i = 1, contact%n
+      associate (c => contact%candidate(i))
+        if (.not. c%valid .or. c%held) cycle
+        k = k + 1
+        contact%row_of(k) = i
+        contact%mu(k) = contact%pair(c%pair)%mu
+      end associate
+    end do
+    call fill_w(contact)
+  end subroutine build_w
+
+  !> Candidates whose normal flexibility is zero to round-off.
+  pure subroutine mark_held(contact)
+    type(contact_t), intent(inout) :: contact
+    real(wp) :: scale, normal, weight(6)
+    integer :: i, k, dof(6)
     scale = zero
     do i = 1, size(contact%flexibility, 1)
       scale = max(scale, contact%flexibility(i, i))
     end do
-    n = 0
     do i = 1, contact%n
       if (.not. contact%candidate(i)%valid) cycle
-      contact%candidate(i)%held = candidate_flexibility(contact, i, i, 1, &
-          1) <= epsilon(one)*scale
-      if (.not. contact%candidate(i)%held) n = n + 1
-    end do
-    call size_rows(contact, n)
-    n = 0
-    do i = 1, contact%n
-      if (.not. contact%candidate(i)%valid .or. contact%candidate(i)%held) cycle
-      n = n + 1
-      contact%row_of(n) = i
-      contact%mu(n) = contact%pair(contact%candidate(i)%pair)%mu
-    end do
-    d = contact%d
-    do j = 1, n
-      do i = 1, j
-        call fill_w(contact, i, j, contact%w(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j))
-        if (i < j) contact%w(d*(j - 1) + 1:d*j, d*(i - 1) + 1:d*i) = &
-            transpose(contact%w(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j))
+      call row_of_h(contact, contact%candidate(i), 1, dof, weight)
+      normal = zero
+      do k = 1, 6
+        normal = normal + weight(k)*dot_product(weight, contact%flexibility(dof, dof(k)))
       end do
+      contact%candidate(i)%held = normal <= epsilon(one)*scale
     end do
-  end subroutine build_w
+  end subroutine mark_held
 
   subroutine size_rows(contact, n)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n
+    integer :: rows
     if (contact%rows == n .and. allocated(contact%w)) return
     contact%rows = n
-    if (allocated(contact%w)) &
-        deallocate (contact%w, contact%q, contact%mu, contact%r, contact%row_of)
-    allocate (contact%w(contact%d*n, contact%d*n), contact%q(contact%d, n), contact%mu(n))
+    if (allocated(contact%w)) deallocate (contact%w, contact%q, contact%mu, contact%r, &
+        contact%row_of, contact%h_dof, contact%h_weight)
+    rows = contact%d*n
+    allocate (contact%w(rows, rows), contact%q(contact%d, n), contact%mu(n))
     allocate (contact%r(contact%d, n), contact%row_of(n))
+    allocate (contact%h_dof(6, rows), contact%h_weight(6, rows))
   end subroutine size_rows
 
-  pure subroutine fill_w(contact, i, j, w)
-    type(contact_t), intent(in) :: contact
-    integer, intent(in) :: i, j
-    real(wp), intent(out) :: w(:, :)
-    integer :: a, b
-    do b = 1, contact%d
-      do a = 1, contact%d
-        w(a, b) = candidate_flexibility(contact, contact%row_of(i), contact%row_of(j), a, b)
+  !> W = H S^-1 H', a column of S^-1 H' at a time; both triangles.
+  pure subroutine fill_w(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: i, j, k, a, d
+    d = contact%d
+    do j = 1, contact%rows
+      do a = 1, d
+        call row_of_h(contact, contact%candidate(contact%row_of(j)), a, &
+            contact%h_dof(:, d*(j - 1) + a), contact%h_weight(:, d*(j - 1) + a))
       end do
     end do
+    associate (dof => contact%h_dof, weight => contact%h_weight, column => contact%column)
+      do j = 1, d*contact%rows
+        column = zero
+        do k = 1, 6
+          if (abs(weight(k, j)) > zero) &
+              column = column + weight(k, j)*contact%flexibility(:, dof(k, j))
+        end do
+        do i = 1, j
+          contact%w(i, j) = weight(1, i)*column(dof(1, i)) + weight(2, i)*column(dof(2, i)) &
+              + weight(3, i)*column(dof(3, i)) + weight(4, i)*column(dof(4, i)) &
+              + weight(5, i)*column(dof(5, i)) + weight(6, i)*column(dof(6, i))
+          contact%w(j, i) = contact%w(i, j)
+        end do
+      end do
+    end associate
   end subroutine fill_w
 
-  !> H_ia S^-1 H_jb': motion of component a of candidate i by a unit reaction b of candidate j.
-  pure real(wp) function candidate_flexibility(contact, i, j, a, b)
-    type(contact_t), intent(in) :: contact
-    integer, intent(in) :: i, j, a, b
-    integer :: row(3), column(3), k, m
-    real(wp) :: weight_i(3), weight_j(3), e_i(2), e_j(2)
-    call stencil(contact, contact%candidate(i), a, row, weight_i, e_i)
-    call stencil(contact, contact%candidate(j), b, column, weight_j, e_j)
-    candidate_flexibility = zero
-    do m = 1, 3
-      do k = 1, 3
-        candidate_flexibility = candidate_flexibility &
-            + weight_i(k)*weight_j(m)*dot_product(e_i, matmul(contact%flexibility(2*row(k) &
-            - 1:2*row(k), 2*column(m) - 1:2*column(m)), e_j))
-      end do
-    end do
-  end function candidate_flexibility
-
-  !> One row of H: block rows of its three nodes, their weights, its direction.
-  pure subroutine stencil(contact, c, component, row, weight, e)
+  !> The row of H of one component (1 normal, 2 tangential) of a candidate: its dofs in the
+  !> block, x and y of its three nodes, and their weights.
+  pure subroutine row_of_h(contact, c, component, dof, weight)
     type(contact_t), intent(in) :: contact
     type(candidate_t), intent(in) :: c
     integer, intent(in) :: component
-    integer, intent(out) :: row(3)
-    real(wp), intent(out) :: weight(3), e(2)
-    row = contact%block_row([c%node, c%a, c%b])
-    weight = [one, c%share*(c%xi - one), -c%share*c%xi]
+    integer, intent(out) :: dof(6)
+    real(wp), intent(out) :: weight(6)
+    real(wp) :: e(2)
     e = c%normal
     if (component == 2) e = edge_tangent(c%normal)
-  end subroutine stencil
+    weight(1:2) = e
+    weight(3:4) = c%share*(c%xi - one)*e
+    weight(5:6) = -c%share*c%xi*e
+    dof(2::2) = 2*contact%block_row([c%node, c%a, c%b])
+    dof(1::2) = dof(2::2) - 1
+  end subroutine row_of_h
 
   !> (n, t) components of the motion of a candidate's node relative to its place, from the
   !> motions of its three nodes: its rows of H times the motion.

@@ -86,6 +86,10 @@ module contact_types
     integer :: rows = 0                           !< valid candidates
     integer, allocatable :: row_of(:)             !< candidate of each row
     real(wp), allocatable :: w(:, :), q(:, :), mu(:), r(:, :)
+    !> (6, rows of H) dofs of the block that a row takes, and their weights
+    integer, allocatable :: h_dof(:, :)
+    real(wp), allocatable :: h_weight(:, :)
+    real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
     logical :: w_is_current = .false.
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length
     type(cone_options_t) :: cone
