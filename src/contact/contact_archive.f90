@@ -18,11 +18,12 @@ contains
   subroutine exchange_contact(archive, contact)
     type(archive_t), intent(inout) :: archive
     type(contact_t), intent(inout) :: contact
-    integer :: counts(12)
+    integer :: counts(13)
     integer :: p
     counts = [contact%n, contact%n_before, size(contact%block), contact%searches, &
         contact%w_builds, contact%block_changes, contact%solves, contact%sweeps, &
-        contact%sweeps_since_row, contact%solves_since_row, contact%wedged, contact%wedged_node]
+        contact%sweeps_since_row, contact%solves_since_row, contact%wedged, &
+        contact%wedged_node, merge(1, 0, contact%alternates)]
     call archive%exchange('contact.counts', counts)
     if (archive%mode == archive_restore) call size_lists(contact, counts)
     contact%searches = counts(4)
@@ -34,6 +35,7 @@ contains
     contact%solves_since_row = counts(10)
     contact%wedged = counts(11)
     contact%wedged_node = counts(12)
+    contact%alternates = counts(13) == 1
     call archive%exchange('contact.block', contact%block)
     call archive%exchange('contact.block_row', contact%block_row)
     call exchange_candidates(archive, 'contact.candidates', contact%candidate(:contact%n))
@@ -72,13 +74,14 @@ contains
     type(archive_t), intent(inout) :: archive
     character(*), intent(in) :: name
     type(candidate_t), intent(inout) :: list(:)
-    real(wp) :: table(18, size(list))
+    real(wp) :: table(22, size(list))
     integer :: k
     do k = 1, size(list)
       associate (c => list(k))
         table(1:8, k) = real([c%pair, c%node, c%edge, c%a, c%b, c%status, merge(1, 0, &
             c%valid), merge(1, 0, c%held)], wp)
-        table(9:, k) = [c%xi, c%share, c%normal, c%length, c%gap, c%r, c%u]
+        table(9:, k) = [c%xi, c%share, c%normal, c%length, c%gap, c%r, c%u, &
+            c%last, c%older]
       end associate
     end do
     call archive%exchange(name, table)
@@ -86,7 +89,7 @@ contains
       associate (n => nint(table(1:8, k)), v => table(9:, k))
         list(k) = candidate_t(pair=n(1), node=n(2), edge=n(3), a=n(4), b=n(5), status=n(6), &
             valid=n(7) == 1, held=n(8) == 1, xi=v(1), share=v(2), normal=v(3:4), length=v(5), &
-            gap=v(6), r=v(7:8), u=v(9:10))
+            gap=v(6), r=v(7:8), u=v(9:10), last=v(11:12), older=v(13:14))
       end associate
     end do
   end subroutine exchange_candidates
@@ -115,6 +118,8 @@ contains
     if (searched .and. .not. allocated(pair%contactor_reference)) &
         allocate (pair%contactor_reference(2, size(pair%contactor%node)), &
         pair%obstacle_reference(2, size(pair%obstacle%node)))
+    if (.not. searched .and. allocated(pair%contactor_reference)) &
+        deallocate (pair%contactor_reference, pair%obstacle_reference)
     if (searched) call archive%exchange('pair.contactor', pair%contactor_reference)
     if (searched) call archive%exchange('pair.obstacle', pair%obstacle_reference)
     values = [pair%safe_distance, pair%moved, pair%room, pair%normal_force, &

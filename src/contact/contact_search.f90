@@ -317,16 +317,20 @@ contains
     end do
   end function inside
 
-  !> Adds a candidate; one that was on the list keeps its reaction as a start.
+  !> Adds a candidate; one that was on the list keeps its reactions as a start.
   subroutine keep_candidate(contact, c)
     type(contact_t), intent(inout) :: contact
     type(candidate_t), intent(inout) :: c
     type(candidate_t), allocatable :: longer(:)
     integer :: i
     c%r = zero
+    c%last = zero
+    c%older = zero
     do i = 1, contact%n_before
       if (contact%before(i)%node == c%node .and. contact%before(i)%pair == c%pair) then
         c%r = contact%before(i)%r
+        c%last = contact%before(i)%last
+        c%older = contact%before(i)%older
         c%edge = contact%before(i)%edge
       end if
     end do

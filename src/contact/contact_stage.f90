@@ -36,22 +36,55 @@ contains
             x_free(:, contact%block_row(c%a)), x_free(:, contact%block_row(c%b)))
         contact%q(1, k) = c%gap + motion(1)
         if (contact%d > 1) contact%q(2, k) = motion(2)
-        contact%r(:, k) = c%r(1:contact%d)
       end associate
     end do
     force = zero
     acting = .false.
     do k = 1, contact%n
-      contact%candidate(k)%r = zero
-      contact%candidate(k)%status = contact_open
+      associate (c => contact%candidate(k))
+        c%older = c%last
+        c%last = c%r
+        c%r = zero
+        c%status = contact_open
+      end associate
     end do
     if (contact%rows == 0) return
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
+    call start_reactions(contact)
     call find_reactions(model, contact, force, certificate, status)
+    call watch_alternation(contact)
     contact%solves = contact%solves + 1
     contact%solves_since_row = contact%solves_since_row + 1
   end subroutine solve_contact
+
+  !> The start: the last reactions, or those before them where forces alternate.
+  pure subroutine start_reactions(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: k
+    do k = 1, contact%rows
+      associate (c => contact%candidate(contact%row_of(k)))
+        contact%r(:, k) = c%last(1:contact%d)
+        if (contact%alternates) contact%r(:, k) = c%older(1:contact%d)
+      end associate
+    end do
+  end subroutine start_reactions
+
+  !> Which of the two would have been the nearer start?
+  pure subroutine watch_alternation(contact)
+    type(contact_t), intent(inout) :: contact
+    real(wp) :: from_last, from_older
+    integer :: k
+    from_last = zero
+    from_older = zero
+    do k = 1, contact%rows
+      associate (c => contact%candidate(contact%row_of(k)))
+        from_last = from_last + sum((c%r - c%last)**2)
+        from_older = from_older + sum((c%r - c%older)**2)
+      end associate
+    end do
+    contact%alternates = from_older < from_last
+  end subroutine watch_alternation
 
   !> Reactions of the rows for q and the start in r, put into candidates and forces.
   subroutine find_reactions(model, contact, force, certificate, status)

@@ -65,6 +65,7 @@ module contact_types
     real(wp) :: length = zero      !< of the edge [L]
     real(wp) :: gap = zero         !< at the start of the step [L]
     real(wp) :: r(2) = zero        !< reaction (n, t) of the step [F]
+    real(wp) :: last(2) = zero, older(2) = zero   !< of the two solves before [F]
     real(wp) :: u(2) = zero        !< gap at the end and slip of the step [L]
     integer :: status = 0
     logical :: valid = .false.     !< takes part in this step
@@ -91,6 +92,9 @@ module contact_types
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
     logical :: w_is_current = .false.
+    !> The last reactions were nearer to those of the solve before the last: forces alternate,
+    !> from step to step (theta = 1/2) or from stage to stage, and so will the next start.
+    logical :: alternates = .false.
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length
     type(cone_options_t) :: cone
     type(cone_work_t) :: work
