@@ -134,6 +134,40 @@ def solvers():
             at_most(off, 1.0e-7, "%s, %s: impulse" % (name, word))
 
 
+def warm_start():
+    """Contact solves that start from earlier reactions need fewer sweeps than those from zero,
+    also with theta = 1/2, where forces alternate from step to step."""
+    for theta in (0.5, 1.0):
+        for mu in (0.0, 0.3):
+            sweeps = []
+            for warm in (1, 0):
+                path, folder = os.path.join(scenes.TMP, "warm.k"), os.path.join(
+                    scenes.TMP, "warm"
+                )
+                make_bars.write(
+                    path,
+                    nx=10,
+                    ny=80,
+                    height=10.0,
+                    gap=1.0e-9,
+                    courant=0.2,
+                    poisson=0.3,
+                    mu=mu,
+                    slide=0.02,
+                    tend=0.04,
+                    theta=theta,
+                )
+                with open(path) as file:
+                    text = file.read()
+                card = "*BIPACT_CONTACT\n,,,,,,,%d\n*END" % warm
+                with open(path, "w") as file:
+                    file.write(text.replace("*END", card))
+                code, errors, _ = bipact(path, folder, "--quiet")
+                check(code == 0, errors)
+                sweeps.append(table(folder, "sleout")["sweeps"].sum())
+            check(sweeps[0] < sweeps[1], "theta %g, mu %g: sweeps %s" % (theta, mu, sweeps))
+
+
 def wedging():
     """Friction of 10 under a block that slides: several answers may exist, and the log says so;
     with 0.3 none does."""
