@@ -26,6 +26,7 @@ module store_fields
     integer(hid_t) :: count = -1                !< attribute NSteps
     type(series_t), allocatable :: field(:)
     type(series_t), allocatable :: offset(:)    !< of each field, one entry a frame
+    integer, allocatable :: rows(:)             !< of each field in a frame; 0: kept once
     integer :: list_chunk = longest_list
     type(series_t) :: times, list(5)            !< what VTK wants to know of each step
   end type fields_file_t
@@ -87,8 +88,8 @@ contains
       call create_series(to%file, '/VTKHDF/Steps/'//trim(lists(k)), 'INTEGER', 1, k < 4, &
           to%list_chunk, 0, to%list(k), status)
     end do
-    if (allocated(to%field)) deallocate (to%field, to%offset)
-    allocate (to%field(size(fields)), to%offset(size(fields)))
+    if (allocated(to%field)) deallocate (to%field, to%offset, to%rows)
+    allocate (to%field(size(fields)), to%offset(size(fields)), to%rows(size(fields)))
     do k = 1, size(fields)
       call open_field(fields(k), options, k, to, status)
     end do
@@ -110,6 +111,8 @@ contains
     if (field%whole) kind = 'INTEGER'
     components = size(field%values, 1)
     rows = max(1, size(field%values, 2))
+    to%rows(k) = size(field%values, 2)
+    if (field%constant) to%rows(k) = 0
     frames = 1
     if (.not. field%constant) frames = max(1, min(options%frames, &
         chunk_bytes/(rows*components*merge(4, 8, options%single))))
@@ -156,44 +159,53 @@ contains
     type(field_t), intent(in) :: fields(:)
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
-    real(wp), parameter :: of_step(5) = [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     logical :: written
-    real(wp) :: first
     integer :: k
     written = .false.
     do k = 1, size(fields)
-      first = 0.0_wp
-      if (.not. fields(k)%constant) first = real(to%frames, wp)*size(fields(k)%values, 2)
-      if (.not. fields(k)%constant .or. to%frames == 0) &
-          call append_rows(to%file, to%field(k), fields(k)%values, status)
-      call append_rows(to%file, to%offset(k), reshape([first], [1, 1]), status)
+      if (fields(k)%constant .and. to%frames > 0) cycle
+      call append_rows(to%file, to%field(k), fields(k)%values, status)
       if (.not. fields(k)%constant) written = written .or. to%field(k)%held == 0
     end do
     call append_rows(to%file, to%times, reshape([time], [1, 1]), status)
-    do k = 1, size(lists)
-      call append_rows(to%file, to%list(k), reshape([of_step(k)], [1, 1]), status)
-    end do
     to%frames = to%frames + 1
     if (written) call flush_frames(to, status)
   end subroutine add_frame
 
+  !> Writes what is held, and for each of these frames where it lies in the fields.
   subroutine flush_frames(to, status)
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
+    integer, parameter :: parts(5) = [0, 1, 0, 0, 0]
     integer :: k
     do k = 1, size(to%field)
       call flush_series(to%file, to%field(k), status)
-      call flush_series(to%file, to%offset(k), status)
+      call append_frames(to, to%offset(k), 0, to%rows(k), status)
     end do
     call flush_series(to%file, to%times, status)
     do k = 1, size(lists)
-      call flush_series(to%file, to%list(k), status)
+      call append_frames(to, to%list(k), parts(k), 0, status)
     end do
     if (failed(status)) return
     call write_attribute(to%count, int(to%frames, i8))
     call flush_file(to, status)
     if (.not. failed(status)) to%kept = to%frames
   end subroutine flush_frames
+
+  !> One entry for each frame that is not on file yet: base + step times its number.
+  subroutine append_frames(to, series, base, step, status)
+    type(fields_file_t), intent(in) :: to
+    type(series_t), intent(inout) :: series
+    integer, intent(in) :: base, step
+    type(status_t), intent(inout) :: status
+    real(wp) :: entry(1, to%frames - to%kept)
+    integer :: k
+    do k = 1, size(entry, 2)
+      entry(1, k) = real(base, wp) + real(step, wp)*(to%kept + k - 1)
+    end do
+    call append_rows(to%file, series, entry, status)
+    call flush_series(to%file, series, status)
+  end subroutine append_frames
 
   subroutine flush_file(to, status)
     type(fields_file_t), intent(inout) :: to
