@@ -18,12 +18,12 @@ contains
   subroutine exchange_contact(archive, contact)
     type(archive_t), intent(inout) :: archive
     type(contact_t), intent(inout) :: contact
-    integer :: counts(13)
+    integer :: counts(14)
     integer :: p
     counts = [contact%n, contact%n_before, size(contact%block), contact%searches, &
         contact%w_builds, contact%block_changes, contact%solves, contact%sweeps, &
         contact%sweeps_since_row, contact%solves_since_row, contact%wedged, &
-        contact%wedged_node, merge(1, 0, contact%alternates)]
+        contact%wedged_node, merge(1, 0, contact%alternates), contact%quiet]
     call archive%exchange('contact.counts', counts)
     if (archive%mode == archive_restore) call size_lists(contact, counts)
     contact%searches = counts(4)
@@ -36,6 +36,7 @@ contains
     contact%wedged = counts(11)
     contact%wedged_node = counts(12)
     contact%alternates = counts(13) == 1
+    contact%quiet = counts(14)
     call archive%exchange('contact.block', contact%block)
     call archive%exchange('contact.block_row', contact%block_row)
     call exchange_candidates(archive, 'contact.candidates', contact%candidate(:contact%n))

@@ -117,7 +117,7 @@ contains
   pure subroutine mark_held(contact)
     type(contact_t), intent(inout) :: contact
     real(wp) :: scale, normal, weight(6)
-    integer :: i, k, dof(6)
+    integer :: i, j, k, dof(6)
     scale = zero
     do i = 1, size(contact%flexibility, 1)
       scale = max(scale, contact%flexibility(i, i))
@@ -127,7 +127,9 @@ contains
       call row_of_h(contact, contact%candidate(i), 1, dof, weight)
       normal = zero
       do k = 1, 6
-        normal = normal + weight(k)*dot_product(weight, contact%flexibility(dof, dof(k)))
+        do j = 1, 6
+          normal = normal + weight(j)*weight(k)*contact%flexibility(dof(j), dof(k))
+        end do
       end do
       contact%candidate(i)%held = normal <= epsilon(one)*scale
     end do

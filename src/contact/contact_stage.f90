@@ -40,14 +40,7 @@ contains
     end do
     force = zero
     acting = .false.
-    do k = 1, contact%n
-      associate (c => contact%candidate(k))
-        c%older = c%last
-        c%last = c%r
-        c%r = zero
-        c%status = contact_open
-      end associate
-    end do
+    call shift_reactions(contact)
     if (contact%rows == 0) return
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
@@ -57,6 +50,22 @@ contains
     contact%solves = contact%solves + 1
     contact%solves_since_row = contact%solves_since_row + 1
   end subroutine solve_contact
+
+  !> Makes room for new reactions. After three solves without any there is nothing to shift.
+  pure subroutine shift_reactions(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: k
+    if (contact%quiet == 3) return
+    contact%quiet = contact%quiet + 1
+    do k = 1, contact%n
+      associate (c => contact%candidate(k))
+        c%older = c%last
+        c%last = c%r
+        c%r = zero
+        c%status = contact_open
+      end associate
+    end do
+  end subroutine shift_reactions
 
   !> The start: the last reactions, or those before them where forces alternate.
   pure subroutine start_reactions(contact)
@@ -94,6 +103,7 @@ contains
     type(certificate_t), intent(out) :: certificate
     type(status_t), intent(inout) :: status
     integer :: k
+    contact%quiet = 0
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
         certificate, status)
     if (certificate%worst > 0) call add_place(status, 'node '// &

@@ -95,6 +95,7 @@ module contact_types
     !> The last reactions were nearer to those of the solve before the last: forces alternate,
     !> from step to step (theta = 1/2) or from stage to stage, and so will the next start.
     logical :: alternates = .false.
+    integer :: quiet = 0          !< solves in a row without a reaction, counted to 3
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length
     type(cone_options_t) :: cone
     type(cone_work_t) :: work

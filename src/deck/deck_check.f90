@@ -3,7 +3,7 @@
 !> Nothing is kept; values are converted again when they are asked for.
 module deck_check
   use base_kinds, only: wp
-  use base_strings, only: to_text, upper
+  use base_strings, only: to_text, upper, position_of
   use deck_data, only: deck_t, field_span, slice_field, find_parameter, convert
   use deck_number, only: scan_integer
   use deck_problems, only: add_note, full
@@ -54,7 +54,7 @@ contains
             call check_text(deck, record, line, card)
             return
           end if
-          comma = index(line, ',') > 0
+          comma = position_of(line, ',') > 0
           call check_bytes(deck, record, line)
           if (comma) then
             call check_commas(deck, record, line, card)

@@ -3,7 +3,7 @@
 !> the defaults. A value that was written as a number keeps its own text, so it reads back
 !> equal.
 module deck_echo
-  use base_strings, only: to_text
+  use base_strings, only: to_text, position_of
   use deck_data, only: deck_t, field_span
   use deck_table, only: card_t, field_t
   implicit none
@@ -53,7 +53,7 @@ contains
       write (unit, '(a)') line
       return
     end if
-    comma = index(line, ',') > 0
+    comma = position_of(line, ',') > 0
     if (plain(line, card, comma, long)) then
       write (unit, '(a)') line
       return
@@ -86,7 +86,7 @@ contains
     type(card_t), intent(in) :: card
     logical, intent(in) :: comma, long
     integer :: f, first, last
-    plain = .not. comma .and. index(line, '&') == 0
+    plain = .not. comma .and. position_of(line, '&') == 0
     do f = 1, card%fields
       if (.not. plain) return
       if (len_trim(card%field(f)%default) == 0) cycle

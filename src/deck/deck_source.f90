@@ -3,6 +3,7 @@
 module deck_source
   use base_kinds, only: i8
   use base_status, only: status_t, fail, status_file
+  use base_strings, only: position_of
   implicit none
   private
 
@@ -66,7 +67,7 @@ contains
       if (file%text(1:3) == mark) cursor%next = 4
     end if
     do while (cursor%next <= len(file%text))
-      length = index(file%text(cursor%next:), line_feed) - 1
+      length = position_of(file%text(cursor%next:), line_feed) - 1
       if (length < 0) length = len(file%text) - cursor%next + 1
       cursor%first = cursor%next
       cursor%last = cursor%next + length - 1
