@@ -34,11 +34,11 @@ contains
   function checksum_of_words(words) result(digits)
     integer(i4), intent(in) :: words(:)
     character(16) :: digits
-    integer(i8) :: sums(2)
-    integer :: k
+    integer(i8) :: sums(2), k, n
     sums = 0_i8
-    do k = 1, size(words), piece
-      call add_words(words(k:min(size(words), k + piece - 1)), sums)
+    n = size(words, kind=i8)
+    do k = 1_i8, n, int(piece, i8)
+      call add_words(words(k:min(n, k + piece - 1_i8)), sums)
     end do
     digits = as_digits(sums)
   end function checksum_of_words

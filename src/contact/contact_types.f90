@@ -92,8 +92,8 @@ module contact_types
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
     logical :: w_is_current = .false.
-    !> The last reactions were nearer to those of the solve before the last: forces alternate,
-    !> from step to step (theta = 1/2) or from stage to stage, and so will the next start.
+    !> The last reactions were nearer to those of the solve before the last: forces alternate
+    !> from step to step (theta = 1/2), and so will the next start.
     logical :: alternates = .false.
     integer :: quiet = 0          !< solves in a row without a reaction, counted to 3
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length

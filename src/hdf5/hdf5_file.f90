@@ -15,10 +15,12 @@ module hdf5_file
   implicit none
   private
   public :: start_library, open_file, create_file, create_in_memory, take_image, close_file, &
-      has_path, read_integers, read_reals, make_group, write_integers, write_reals, list_members
+      opens, has_path, read_integers, read_reals, make_group, write_integers, write_reals, &
+      list_members
 
   type, public :: file_t
     integer(hid_t) :: id = -1
+    logical :: in_memory = .false.
     character(:), allocatable :: name
   end type file_t
 
@@ -66,7 +68,8 @@ contains
     call h5pcreate_f(h5p_file_access_f, access, error)
     call h5pset_fapl_core_f(access, growth, .false., error)
     call h5fcreate_f(name, h5f_acc_trunc_f, file%id, error, access_prp=access)
-    if (error < 0) call fail(status, status_file, 'not enough memory to write "'//name//'"')
+    file%in_memory = .true.
+    if (error < 0) call cannot_write(file, status)
     call h5pclose_f(access, error)
   end subroutine create_in_memory
 
@@ -89,8 +92,7 @@ contains
     end if
     place = c_loc(image)
     if (error >= 0) call h5fget_file_image_f(file%id, place, bytes, error)
-    if (error < 0) call fail(status, status_file, 'not enough memory to write "'// &
-        file%name//'"')
+    if (error < 0) call cannot_write(file, status)
     call close_file(file, status)
   end subroutine take_image
 
@@ -115,6 +117,26 @@ contains
         file%name//'" to its end', hint='is the disk full or gone?')
     file%id = -1
   end subroutine close_file
+
+  subroutine cannot_write(file, status)
+    type(file_t), intent(in) :: file
+    type(status_t), intent(inout) :: status
+    if (file%in_memory) then
+      call fail(status, status_file, 'not enough memory to write "'//file%name//'"')
+    else
+      call fail(status, status_file, 'cannot write "'//file%name//'"')
+    end if
+  end subroutine cannot_write
+
+  !> Can the library open a file?
+  logical function opens(name)
+    character(*), intent(in) :: name
+    integer(hid_t) :: id
+    integer :: error
+    call h5fopen_f(name, h5f_acc_rdonly_f, id, error)
+    opens = error >= 0
+    if (opens) call h5fclose_f(id, error)
+  end function opens
 
   !> Names of what a group holds, in increasing order.
   subroutine list_members(file, group, names)
@@ -235,7 +257,7 @@ contains
     integer(hid_t) :: group
     integer :: error
     call h5gcreate_f(file%id, path, group, error)
-    if (error < 0) call fail(status, status_file, 'cannot write "'//file%name//'"')
+    if (error < 0) call cannot_write(file, status)
     if (error >= 0) call h5gclose_f(group, error)
   end subroutine make_group
 
@@ -253,7 +275,7 @@ contains
     call h5screate_simple_f(1, n, space, error)
     call h5dcreate_f(file%id, path, h5t_native_double, space, set, error)
     if (error >= 0) call h5dwrite_f(set, h5t_native_double, values, n, error)
-    if (error < 0) call fail(status, status_file, 'cannot write "'//file%name//'"')
+    if (error < 0) call cannot_write(file, status)
     call h5dclose_f(set, error)
     call h5sclose_f(space, error)
   end subroutine write_reals
@@ -272,7 +294,7 @@ contains
     call h5screate_simple_f(1, n, space, error)
     call h5dcreate_f(file%id, path, h5t_native_integer, space, set, error)
     if (error >= 0) call h5dwrite_f(set, h5t_native_integer, values, n, error)
-    if (error < 0) call fail(status, status_file, 'cannot write "'//file%name//'"')
+    if (error < 0) call cannot_write(file, status)
     call h5dclose_f(set, error)
     call h5sclose_f(space, error)
   end subroutine write_integers

@@ -28,6 +28,7 @@ module output_fields
     integer :: frames = 0
     real(wp), allocatable :: time(:)           !< of all frames so far
     integer, allocatable :: segment_of(:)      !< of each frame
+    real(wp), allocatable :: bytes(:)          !< of the segments that are closed
   end type fields_t
 
 contains
@@ -40,7 +41,7 @@ contains
     call choose_cells(model, fields)
     associate (wanted => model%requests%field%wanted)
       n = count(wanted)
-      allocate (fields%field(n), fields%time(64), fields%segment_of(64))
+      allocate (fields%field(n), fields%time(64), fields%segment_of(64), fields%bytes(0))
       n = 0
       do k = 1, size(field_names)
         if (.not. wanted(k)) cycle

@@ -49,13 +49,14 @@ module output_storage
   end type storage_t
 
   abstract interface
-    !> Writes a whole restart file at path, brought to the disk; fails when that cannot be.
+    !> Writes a whole restart file at path, brought to the disk, and empties the archive; fails
+    !> when that cannot be.
     subroutine save_i(this, path, header, archive, status)
       import :: storage_t, restart_header_t, archive_t, status_t
       class(storage_t), intent(inout) :: this
       character(*), intent(in) :: path
       type(restart_header_t), intent(in) :: header
-      type(archive_t), intent(in) :: archive
+      type(archive_t), intent(inout) :: archive
       type(status_t), intent(inout) :: status
     end subroutine save_i
     !> Reads one; fails with the reason when it is damaged, cut off, or of another kind.

@@ -2,8 +2,8 @@
 !> Field files of a run: segments of frames, and the XDMF file over all of them. Only scenes
 !> that ask for fields come here.
 module run_frames
-  use base_files, only: file_exists, list_files, remove_file, path_length
-  use base_kinds, only: wp
+  use base_files, only: file_exists, file_size, list_files, remove_file, path_length
+  use base_kinds, only: wp, i8
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
@@ -79,11 +79,13 @@ contains
     if (run%fields%frames == 0) return
     if (run%fields%segment_of(run%fields%frames) /= run%fields%segment) return
     call run%storage%close_segment(status)
+    run%fields%bytes = [run%fields%bytes, real(file_size(join_path(run%folder, &
+        segment_name(run%fields%segment))), wp)]
     run%fields%segment = run%fields%segment + 1
     call write_xdmf(run%folder, run%mesh, run%fields, run%model%requests%field%single, status)
   end subroutine end_segment
 
-  !> Fails where a field file of the run so far is not there any more.
+  !> Fails where a field file of the run so far is not as it was any more.
   subroutine check_segments(run, status)
     type(run_t), intent(in) :: run
     type(status_t), intent(inout) :: status
@@ -92,8 +94,13 @@ contains
     if (failed(status)) return
     do k = 0, run%fields%segment - 1
       path = join_path(run%folder, segment_name(k))
-      if (.not. file_exists(path)) call fail(status, status_file, 'cannot go on: "'//path// &
-          '" of the run so far is missing')
+      if (.not. file_exists(path)) then
+        call fail(status, status_file, 'cannot go on: "'//path// &
+            '" of the run so far is missing')
+      else if (file_size(path) /= nint(run%fields%bytes(k + 1), i8)) then
+        call fail(status, status_file, 'cannot go on: "'//path//'" has lost frames that it '// &
+            'had when the restart file was written')
+      end if
     end do
   end subroutine check_segments
 

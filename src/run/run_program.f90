@@ -187,6 +187,7 @@ contains
     type(run_t), intent(in) :: run
     call remove_file(join_path(run%folder, 'restart.tmp'))
     call remove_file(join_path(run%folder, 'fields.xdmf.tmp'))
+    call remove_file(join_path(run%folder, 'deck.echo.tmp'))
     if (allocated(run%restarted)) then
       call remove_restarts(run%folder, run%state%cycle)
       if (run%plan%fields) call remove_segments(run%folder, run%fields%segment)

@@ -2,7 +2,7 @@
 !> The log, the echo deck and the closing summary.
 module run_report
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use base_files, only: open_text, close_text, move_file
+  use base_files, only: open_text, close_text, move_file, remove_file
   use base_kinds, only: wp, zero, i8
   use base_status, only: status_t, failed, status_text
   use base_strings, only: to_text, join_path
@@ -47,6 +47,7 @@ contains
     path = join_path(run%folder, 'deck.echo.k')
     if (run%deck_hash /= '') then
       call move_file(join_path(run%folder, 'deck.echo.tmp'), path, status)
+      if (failed(status)) call remove_file(join_path(run%folder, 'deck.echo.tmp'))
       return
     end if
     call open_text(path, unit, status)

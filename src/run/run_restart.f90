@@ -179,6 +179,11 @@ contains
       deallocate (fields%time, fields%segment_of)
       allocate (fields%time(2*fields%frames), fields%segment_of(2*fields%frames))
     end if
+    if (archive%mode == archive_restore) then
+      deallocate (fields%bytes)
+      allocate (fields%bytes(fields%segment))
+    end if
+    call archive%exchange('fields.bytes', fields%bytes)
     call archive%exchange('fields.time', fields%time(:fields%frames))
     call archive%exchange('fields.segment_of', fields%segment_of(:fields%frames))
   end subroutine exchange_frames
@@ -213,7 +218,8 @@ contains
       call restore(run, trim(paths(k)), trial)
       if (.not. failed(trial)) exit
       if (.not. failed(status)) status = trial
-      call add_note(run%deck%problems, 'restart: '//status_text(trial))
+      call add_note(run%deck%problems, 'restart: "'//trim(paths(k))//'" is passed over: '// &
+          status_text(trial))
     end do
     if (size(paths) == 0) return
     if (failed(trial)) then

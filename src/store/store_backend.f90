@@ -26,7 +26,7 @@ contains
     class(hdf5_storage_t), intent(inout) :: this
     character(*), intent(in) :: path
     type(restart_header_t), intent(in) :: header
-    type(archive_t), intent(in) :: archive
+    type(archive_t), intent(inout) :: archive
     type(status_t), intent(inout) :: status
     call write_restart_file(path, header, archive, status)
   end subroutine backend_save

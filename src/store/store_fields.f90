@@ -6,7 +6,7 @@ module store_fields
   use base_kinds, only: wp, i8
   use base_status, only: status_t, fail, failed, status_file
   use hdf5, only: hid_t, h5gopen_f, h5gclose_f, h5fflush_f, h5f_scope_global_f
-  use hdf5_file, only: file_t, create_file, close_file, make_group
+  use hdf5_file, only: file_t, create_file, close_file, make_group, opens
   use hdf5_series, only: series_t, create_series, append_rows, flush_series, close_series, &
       open_attribute, write_attribute, close_attribute, write_text_attribute, &
       write_list_attribute
@@ -216,10 +216,12 @@ contains
         hint='is the disk full, the folder gone or closed?')
   end subroutine flush_file
 
-  !> Ends the file. One that has no frame to show, because writing failed, is removed.
+  !> Ends the file. One that has no frame to show, or cannot be opened, because writing failed,
+  !> is removed.
   subroutine close_fields(to, status)
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
+    logical :: usable
     integer :: k
     if (.not. to%is_open) return
     call flush_frames(to, status)
@@ -233,8 +235,11 @@ contains
     end do
     call close_attribute(to%count)
     call close_file(to%file, status)
-    if (failed(status) .and. to%kept == 0) call remove_file(to%file%name)
     to%is_open = .false.
+    if (.not. failed(status)) return
+    usable = to%kept > 0
+    if (usable) usable = opens(to%file%name)
+    if (.not. usable) call remove_file(to%file%name)
   end subroutine close_fields
 
 end module store_fields

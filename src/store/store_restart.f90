@@ -17,17 +17,17 @@ module store_restart
   private
   public :: write_restart_file, read_restart_file
 
-  integer, parameter :: free = 512, format_number = 1, head = 400
+  integer, parameter :: free = 512, format_number = 2, head = 400
   character(*), parameter :: magic = 'bipact restart'
 
 contains
 
   !> A whole file at path, on the disk. It is made in memory: one stroke of writing, and the
-  !> checksum without reading it again.
+  !> checksum without reading it again. The archive is empty afterwards.
   subroutine write_restart_file(path, header, archive, status)
     character(*), intent(in) :: path
     type(restart_header_t), intent(in) :: header
-    type(archive_t), intent(in) :: archive
+    type(archive_t), intent(inout) :: archive
     type(status_t), intent(inout) :: status
     type(file_t) :: file
     integer(i4), allocatable :: image(:)
@@ -43,6 +43,7 @@ contains
       write (number, '(i8.8)') k
       call write_reals(file, '/archive/'//number//' '//trim(archive%entry(k)%name), &
           archive%entry(k)%values, status)
+      deallocate (archive%entry(k)%values)   ! else a large state would be there three times
     end do
     call take_image(file, image, status)
     if (.not. failed(status)) call write_image(path, header, image, status)

@@ -321,7 +321,7 @@ def refused():
         assert text != head[:400] and len(text) == 400
         return text + fletcher(text) + head[416:] + rest
 
-    cases.append((relabelled(b"format    1", b"format    9"), "its format is 9"))
+    cases.append((relabelled(b"format    2", b"format    9"), "its format is 9"))
     version = re.search(rb"version (\S+)", head).group(1)
     cases.append((relabelled(version, b"0" * len(version)), "of bipact wrote it"))
     cases.append(
@@ -356,6 +356,7 @@ def refused():
         "the log tells which, and why",
     )
     lost_rows(deck, folder, whole)
+    cut_fields()
     code, errors, _ = bipact(deck, os.path.join(TMP, "empty"), "--restart", "latest")
     check(code == 3 and "no restart file" in errors, errors)
     count = len(restart_files(folder))
@@ -378,7 +379,28 @@ def lost_rows(deck, folder, whole):
     check(code == 0, "lost rows: %s" % errors)
     check(not differences(whole, contents(folder)), "lost rows: the same end")
     with open(os.path.join(folder, "bipact.log")) as log:
-        check("lost rows" in log.read(), "lost rows: the log tells")
+        text = log.read()
+    check("lost rows" in text, "lost rows: the log tells")
+    check(os.path.basename(restart_files(folder)[-1]) in text, "lost rows: and of which file")
+
+
+def cut_fields():
+    """A field file that was cut short, emptied or overwritten: latest goes back to a restart file
+    from before it, and ends as the run did."""
+    folder = os.path.join(TMP, "cut")
+    cards = RESTART % (20, "", 9) + EVERY_FIELD % 1.0e-2
+    deck = write_deck("cut", with_cards(scene("friction"), cards))
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    whole = contents(folder)
+    path = os.path.join(folder, "fields.002.vtkhdf")
+    check(code == 0 and len(restart_files(folder)) > 4 and os.path.exists(path), "segments")
+    for size in (os.path.getsize(path) // 2, 0):
+        os.truncate(path, size)
+        code, errors, _ = bipact(deck, folder, "--quiet", "--restart", "latest")
+        check(code == 0, "cut fields: %s" % errors)
+        check(not differences(whole, contents(folder)), "cut fields: the same end")
+        with open(os.path.join(folder, "bipact.log")) as log:
+            check("has lost frames" in log.read(), "cut fields: the log tells")
 
 
 def limited(bytes_of_file=None, bytes_of_memory=None):
