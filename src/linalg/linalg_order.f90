@@ -160,6 +160,7 @@ contains
     type(status_t), intent(inout) :: status
     integer(c_int), allocatable :: xadj(:), adjncy(:), perm(:), iperm(:)
     integer, allocatable :: local(:)
+    integer(c_int), allocatable, volatile :: room(:)
     integer :: n, k, m, length, info
     n = size(nodes)
     if (n < 2) then
@@ -179,6 +180,9 @@ contains
       end do
     end do
     xadj(n + 1) = int(length, c_int)
+    ! METIS does not survive a lack of memory; it takes five times the graph.
+    allocate (room(8*(n + length) + 100000))
+    deallocate (room)
     info = int(metis_node_nd(int(n, c_int), xadj, adjncy, c_null_ptr, c_null_ptr, perm, iperm))
     if (info /= 1) call fail(status, status_numerical, 'METIS found no elimination order', &
         hint='choose ORDER RCM on *BIPACT_SOLVER')

@@ -488,10 +488,11 @@ def starved_fields(folder):
     """Field files at every stage of their making: the library must not fall over what it could
     not write, and what is left can be opened."""
     path = os.path.join(TMP, "sliding.k")
-    make_scenes.write(path, "sliding", n=6, tend=1.0, courant=4.0)
-    with open(path) as file:
-        deck = write_deck("sliding", with_cards(file.read(), EVERY_FIELD % 0.02))
-    for limit in (15_000, 40_000, 80_000, 150_000, 300_000):
+    limits = {6: (15_000, 40_000, 80_000, 150_000, 300_000), 40: (6_000_000, 9_800_000)}
+    for n, limit in [(n, limit) for n in limits for limit in limits[n]]:
+        make_scenes.write(path, "sliding", n=n, tend=1.0, courant=4.0)
+        with open(path) as file:
+            deck = write_deck("sliding", with_cards(file.read(), EVERY_FIELD % 0.02))
         shutil.rmtree(folder, ignore_errors=True)
         code, errors = starved(deck, folder, bytes_of_file=limit)
         if code == 0:
@@ -596,7 +597,7 @@ def unwritable(deck, deck_fields, folder, whole):
 
 
 def memory(folder):
-    """Not enough memory for the scene."""
+    """Not enough memory for the scene, wherever it ends: reading, METIS, the matrix."""
     if "sanitize" in BIPACT:
         print("note: the sanitizer needs more memory than the limit: NOT tested")
         return
@@ -604,6 +605,13 @@ def memory(folder):
     make_bars.write(deck, nx=400, ny=100)
     code, errors = starved(deck, folder, bytes_of_memory=60_000_000)
     one_message(code, errors, "not enough memory", "memory")
+    make_bars.write(deck, nx=200, ny=60, tend=1.0e-6)
+    for megabytes in range(34, 66, 3):
+        code, errors = starved(deck, folder, bytes_of_memory=megabytes * 1_000_000)
+        if "shared libraries" in errors:
+            continue
+        if code != 0:
+            one_message(code, errors, "not enough memory", "%d MB" % megabytes)
 
 
 if __name__ == "__main__":
