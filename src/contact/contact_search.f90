@@ -7,9 +7,9 @@ module contact_search
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
   use base_strings, only: to_text
   use contact_surface, only: surface_t, facing, edge_tangent
-  use contact_track, only: gap_to_edge, place_on_edge, end_tolerance, update_candidate
+  use contact_track, only: gap_to_edge, place_on_edge, end_tolerance
   use contact_types, only: contact_t, pair_t, candidate_t
-  use contact_wall, only: wall_distance, wall_candidate, check_wall
+  use contact_wall, only: wall_distance, check_wall
   use model_data, only: model_t
   implicit none
   private
@@ -31,13 +31,13 @@ contains
     real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b, moved
     asleep = pair%safe_distance >= huge(one)
     if (asleep .or. pair%safe_distance < zero) return
-    pair%room = pair%room - 2.0_wp*largest
-    asleep = pair%room > 4.0_wp*largest
+    pair%remaining_margin = pair%remaining_margin - 2.0_wp*largest
+    asleep = pair%remaining_margin > 4.0_wp*largest
     if (asleep) return
     call side_motion(pair%contactor%node, pair%contactor_reference, u, mean_a, spread_a)
     call side_motion(pair%obstacle%node, pair%obstacle_reference, u, mean_b, spread_b)
     moved = sqrt(sum((mean_a - mean_b)**2)) + spread_a + spread_b
-    pair%room = pair%safe_distance - moved
+    pair%remaining_margin = pair%safe_distance - moved
     asleep = moved + 2.0_wp*max(zero, moved - pair%moved) < pair%safe_distance
     pair%moved = moved
   end subroutine test_sleep
@@ -78,7 +78,7 @@ contains
     type(candidate_t) :: c
     real(wp) :: distance
     integer :: k
-    contact%searches = contact%searches + 1
+    contact%tally%searches = contact%tally%searches + 1
     contact%searched = p
     if (contact%pair(p)%is_wall) then
       call search_wall(model, contact, p, u, du, v, h, cycle, status)
@@ -90,7 +90,7 @@ contains
       call near_edges(model, pair, u, reach, near)
       pair%safe_distance = huge(one)
       pair%moved = zero
-      pair%room = zero
+      pair%remaining_margin = zero
       do k = 1, size(pair%contactor%node)
         place = model%x(:, pair%contactor%node(k)) + u(:, pair%contactor%node(k))
         distance = sqrt(sum(max(low - place, place - high, zero)**2))
@@ -127,14 +127,16 @@ contains
       if (.not. reach > pair%contactor%mean_length) reach = half*reach
       pair%safe_distance = huge(one)
       pair%moved = zero
-      pair%room = zero
+      pair%remaining_margin = zero
       do k = 1, size(pair%contactor%node)
         gap = wall_distance(pair, model%x, u, pair%contactor%node(k))
         if (.not. listed(contact, pair%contactor%node(k))) &
             call check_wall(model, contact, pair, pair%contactor%node(k), gap, cycle, status)
         if (failed(status)) return
         if (gap <= reach) then
-          c = wall_candidate(pair, p, pair%contactor%node(k))
+          c%pair = p
+          c%node = pair%contactor%node(k)
+          c%edge = 0
           call keep_candidate(contact, c)
         else
           pair%safe_distance = min(pair%safe_distance, gap)
@@ -255,8 +257,8 @@ contains
     integer, intent(in) :: node
     integer :: i
     listed = .false.
-    do i = 1, contact%n_before
-      if (contact%before(i)%node == node) listed = .true.
+    do i = 1, contact%last_candidates
+      if (contact%last_list(i)%node == node) listed = .true.
     end do
   end function listed
 
@@ -317,30 +319,23 @@ contains
     end do
   end function inside
 
-  !> Adds a candidate; one that was on the list keeps its reactions as a start.
+  !> Adds a candidate; one that was on the list keeps its edge.
   subroutine keep_candidate(contact, c)
     type(contact_t), intent(inout) :: contact
     type(candidate_t), intent(inout) :: c
     type(candidate_t), allocatable :: longer(:)
     integer :: i
-    c%r = zero
-    c%last = zero
-    c%older = zero
-    do i = 1, contact%n_before
-      if (contact%before(i)%node == c%node .and. contact%before(i)%pair == c%pair) then
-        c%r = contact%before(i)%r
-        c%last = contact%before(i)%last
-        c%older = contact%before(i)%older
-        c%edge = contact%before(i)%edge
-      end if
+    do i = 1, contact%last_candidates
+      if (contact%last_list(i)%node == c%node .and. contact%last_list(i)%pair == c%pair) &
+          c%edge = contact%last_list(i)%edge
     end do
-    if (contact%n == size(contact%candidate)) then
-      allocate (longer(2*contact%n + 8))
-      longer(1:contact%n) = contact%candidate
+    if (contact%candidates == size(contact%candidate)) then
+      allocate (longer(2*contact%candidates + 8))
+      longer(1:contact%candidates) = contact%candidate
       call move_alloc(longer, contact%candidate)
     end if
-    contact%n = contact%n + 1
-    contact%candidate(contact%n) = c
+    contact%candidates = contact%candidates + 1
+    contact%candidate(contact%candidates) = c
   end subroutine keep_candidate
 
 end module contact_search

@@ -4,11 +4,13 @@ module contact_setup
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, failed
   use cone_types, only: cone_options_t, contact_open
-  use contact_condense, only: block_outgrown, make_block, track_candidates
+  use contact_condense, only: interface_outgrown, make_interface
+  use contact_rows, only: start_rows, swap_rows, same_geometry, carry_reactions, find_slots
   use contact_search, only: test_sleep, search_pair
   use contact_surface, only: make_surface, surface_t
+  use contact_track, only: update_candidate, add_candidate_row
   use contact_types, only: contact_t, pair_t, no_gap
-  use contact_wall, only: make_wall, mark_wall_nodes
+  use contact_wall, only: make_wall, mark_wall_nodes, add_wall_row
   use model_data, only: model_t, segment_owner, field_names
   implicit none
   private
@@ -27,9 +29,12 @@ contains
     contact%cone = cone
     contact%penetration_tolerance = model%controls%penetration_tolerance
     allocate (contact%pair(size(model%contact) + size(model%wall)))
-    allocate (contact%candidate(64), contact%before(64))
-    allocate (contact%block(0), contact%block_row(model%nodes))
-    contact%block_row = 0
+    allocate (contact%candidate(64), contact%last_list(64))
+    allocate (contact%rows, contact%next, contact%before)
+    call start_rows(contact%rows)
+    call start_rows(contact%next)
+    allocate (contact%interface_node(0), contact%slot(model%nodes))
+    contact%slot = 0
     contact%d = 1
     do p = 1, size(model%contact)
       if (model%contact(p)%mu > zero) contact%d = 2
@@ -119,27 +124,28 @@ contains
 
   !> Candidates for the coming step: searches if any pair has moved enough to wake, then tracks.
   !> largest: of the motions du. A pair is left alone before its birth and after its death.
-  !> new_block tells that the block of nodes had to grow: the matrix must be factored again.
-  subroutine find_candidates(model, contact, u, du, v, largest, h, cycle, t1, new_block, status)
+  !> new_interface tells that the interface had to grow: the matrix must be factored again.
+  subroutine find_candidates(model, contact, u, du, v, largest, h, cycle, t1, new_interface, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), du(:, :), v(:, :)
     real(wp), intent(in) :: largest, h, t1
     integer, intent(in) :: cycle
-    logical, intent(out) :: new_block
+    logical, intent(out) :: new_interface
     type(status_t), intent(inout) :: status
     logical :: awake, asleep
     integer :: p
-    new_block = .false.
+    new_interface = .false.
     awake = .false.
     do p = 1, size(contact%pair)
       if (.not. acts(contact%pair(p), t1)) cycle
       call test_sleep(contact%pair(p), u, largest, asleep)
       awake = awake .or. .not. asleep
     end do
-    if (awake .or. contact%keeps_before) call remember(contact)
+    if (contact%keeps_before) contact%before = contact%rows
     if (awake) then
-      contact%n = 0
+      call remember(contact)
+      contact%candidates = 0
       do p = 1, size(contact%pair)
         if (.not. acts(contact%pair(p), t1)) cycle
         call search_pair(model, contact, p, u, du, v, h, cycle, status)
@@ -147,12 +153,61 @@ contains
       end do
       contact%w_is_current = .false.
     end if
-    call track_candidates(contact, model%x, u, t1)
-    if (block_outgrown(contact)) then
-      call make_block(contact)
-      new_block = .true.
+    call find_rows(contact, model%x, u, t1)
+    if (interface_outgrown(contact)) then
+      call make_interface(contact, nodes_near(contact))
+      new_interface = .true.
     end if
+    call find_slots(contact%slot, contact%rows)
   end subroutine find_candidates
+
+  !> The rows at the start of a step ending at time t1: every candidate at the place that its
+  !> node faces now. W stays where their geometry is the same.
+  subroutine find_rows(contact, x, u, t1)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: x(:, :), u(:, :), t1
+    integer :: i
+    call start_rows(contact%next)
+    do i = 1, contact%candidates
+      associate (c => contact%candidate(i), pair => contact%pair(contact%candidate(i)%pair))
+        if (.not. acts(pair, t1)) cycle
+        if (pair%is_wall) then
+          call add_wall_row(pair, c%pair, x, u, c%node, contact%next)
+        else
+          call update_candidate(pair, x, u, c)
+          if (c%valid) call add_candidate_row(pair, x, u, c, contact%next)
+        end if
+      end associate
+    end do
+    call carry_reactions(contact%rows, contact%next)
+    if (.not. same_geometry(contact%rows, contact%next)) contact%w_is_current = .false.
+    if (contact%w_is_current) contact%next%is_rigid(:contact%next%n) = &
+        contact%rows%is_rigid(:contact%rows%n)
+    call swap_rows(contact%rows, contact%next)
+  end subroutine find_rows
+
+  !> The nodes of the rows, with one more edge on either side of each, so that sliding does not
+  !> outgrow the interface at once.
+  pure function nodes_near(contact) result(taken)
+    type(contact_t), intent(in) :: contact
+    logical :: taken(size(contact%slot))
+    integer :: i, s, next
+    taken = .false.
+    do i = 1, contact%candidates
+      associate (c => contact%candidate(i), &
+          obstacle => contact%pair(contact%candidate(i)%pair)%obstacle)
+        taken(c%node) = .true.
+        if (c%edge == 0) cycle
+        taken(obstacle%end_node(:, c%edge)) = .true.
+        do s = 1, 2
+          next = obstacle%neighbour(s, c%edge)
+          if (next == 0) cycle
+          if (dot_product(obstacle%normal(:, next), obstacle%normal(:, c%edge)) < half) cycle
+          taken(obstacle%end_node(:, next)) = .true.
+        end do
+      end associate
+    end do
+  end function nodes_near
 
   pure logical function acts(pair, t1)
     type(pair_t), intent(in) :: pair
@@ -162,12 +217,12 @@ contains
 
   subroutine remember(contact)
     type(contact_t), intent(inout) :: contact
-    if (size(contact%before) < contact%n) then
-      deallocate (contact%before)
-      allocate (contact%before(size(contact%candidate)))
+    if (size(contact%last_list) < contact%candidates) then
+      deallocate (contact%last_list)
+      allocate (contact%last_list(size(contact%candidate)))
     end if
-    contact%before(1:contact%n) = contact%candidate(1:contact%n)
-    contact%n_before = contact%n
+    contact%last_list(1:contact%candidates) = contact%candidate(1:contact%candidates)
+    contact%last_candidates = contact%candidates
   end subroutine remember
 
   !> Nodes that REDIST makes massless: the nodes of surface edges in front of which, along their

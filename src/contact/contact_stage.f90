@@ -2,14 +2,14 @@
 !> Contact of one stage of a step, for every scheme: from the free motion of the block to the
 !> reactions. It does not know the scheme: the stage has said what the motion means.
 module contact_stage
-  use base_kinds, only: wp, zero, half
+  use base_kinds, only: wp, zero, half, one
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify, mean_diagonal
   use cone_gauss_seidel, only: solve_cone
   use cone_local, only: may_wedge
   use cone_types, only: certificate_t, contact_open, size_cone_work
-  use contact_condense, only: relative_motion, spread_force
+  use contact_rows, only: relative_displacement, add_row_force
   use contact_types, only: contact_t
   use model_data, only: model_t
   implicit none
@@ -18,8 +18,8 @@ module contact_stage
 
 contains
 
-  !> Reactions for the free motion x_free (2, m) of the block; force (2, m) = H' r. acting is
-  !> false when nothing touches, and then force is zero.
+  !> Reactions for the free motion x_free (2, m) of the interface; force (2, m) = H' r. acting
+  !> is false when nothing touches, and then force is zero.
   subroutine solve_contact(model, contact, x_free, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -28,53 +28,49 @@ contains
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
-    real(wp) :: motion(2)
+    real(wp) :: u(2)
     integer :: k
-    do k = 1, contact%rows
-      associate (c => contact%candidate(contact%row_of(k)))
-        motion = relative_motion(c, x_free(:, contact%block_row(c%node)), &
-            x_free(:, contact%block_row(c%a)), x_free(:, contact%block_row(c%b)))
-        contact%q(1, k) = c%gap + motion(1)
-        if (contact%d > 1) contact%q(2, k) = motion(2)
-      end associate
+    do k = 1, contact%n
+      u = relative_displacement(contact%rows, contact%row_of(k), contact%rows%slot, x_free)
+      contact%q(1, k) = contact%rows%offset(contact%row_of(k)) + u(1)
+      if (contact%d > 1) contact%q(2, k) = u(2)
     end do
     force = zero
     acting = .false.
     call shift_reactions(contact)
-    if (contact%rows == 0) return
+    if (contact%n == 0) return
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
     call start_reactions(contact)
     call find_reactions(model, contact, force, certificate, status)
     call watch_alternation(contact)
-    contact%solves = contact%solves + 1
-    contact%solves_since_row = contact%solves_since_row + 1
+    contact%tally%solves = contact%tally%solves + 1
+    contact%tally%solves_since_row = contact%tally%solves_since_row + 1
   end subroutine solve_contact
 
-  !> Makes room for new reactions. After three solves without any there is nothing to shift.
+  !> Shifts the reaction history. After three solves without any there is nothing to shift.
   pure subroutine shift_reactions(contact)
     type(contact_t), intent(inout) :: contact
-    integer :: k
-    if (contact%quiet == 3) return
-    contact%quiet = contact%quiet + 1
-    do k = 1, contact%n
-      associate (c => contact%candidate(k))
-        c%older = c%last
-        c%last = c%r
-        c%r = zero
-        c%status = contact_open
-      end associate
-    end do
+    integer :: n
+    if (contact%solves_without_contact == 3) return
+    contact%solves_without_contact = contact%solves_without_contact + 1
+    n = contact%rows%n
+    associate (rows => contact%rows)
+      rows%r_older(:, :n) = rows%r_previous(:, :n)
+      rows%r_previous(:, :n) = rows%r(:, :n)
+      rows%r(:, :n) = zero
+      rows%status(:n) = contact_open
+    end associate
   end subroutine shift_reactions
 
   !> The start: the last reactions, or those before them where forces alternate.
   pure subroutine start_reactions(contact)
     type(contact_t), intent(inout) :: contact
     integer :: k
-    do k = 1, contact%rows
-      associate (c => contact%candidate(contact%row_of(k)))
-        contact%r(:, k) = c%last(1:contact%d)
-        if (contact%alternates) contact%r(:, k) = c%older(1:contact%d)
+    do k = 1, contact%n
+      associate (rows => contact%rows, a => contact%row_of(k))
+        contact%r(:, k) = rows%r_previous(1:contact%d, a)
+        if (contact%alternates) contact%r(:, k) = rows%r_older(1:contact%d, a)
       end associate
     end do
   end subroutine start_reactions
@@ -82,20 +78,20 @@ contains
   !> Which of the two would have been the nearer start?
   pure subroutine watch_alternation(contact)
     type(contact_t), intent(inout) :: contact
-    real(wp) :: from_last, from_older
+    real(wp) :: from_previous, from_older
     integer :: k
-    from_last = zero
+    from_previous = zero
     from_older = zero
-    do k = 1, contact%rows
-      associate (c => contact%candidate(contact%row_of(k)))
-        from_last = from_last + sum((c%r - c%last)**2)
-        from_older = from_older + sum((c%r - c%older)**2)
+    do k = 1, contact%n
+      associate (rows => contact%rows, a => contact%row_of(k))
+        from_previous = from_previous + sum((rows%r(:, a) - rows%r_previous(:, a))**2)
+        from_older = from_older + sum((rows%r(:, a) - rows%r_older(:, a))**2)
       end associate
     end do
-    contact%alternates = from_older < from_last
+    contact%alternates = from_older < from_previous
   end subroutine watch_alternation
 
-  !> Reactions of the rows for q and the start in r, put into candidates and forces.
+  !> Reactions of the condensed problem for q and the start in r, put into rows and forces.
   subroutine find_reactions(model, contact, force, certificate, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -103,21 +99,21 @@ contains
     type(certificate_t), intent(out) :: certificate
     type(status_t), intent(inout) :: status
     integer :: k
-    contact%quiet = 0
+    contact%solves_without_contact = 0
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
         certificate, status)
     if (certificate%worst > 0) call add_place(status, 'node '// &
-        to_text(model%node_id(contact%candidate(contact%row_of(certificate%worst))%node)))
-    call keep_worst(certificate, contact%worst)
-    call keep_worst(certificate, contact%worst_since_row)
-    contact%sweeps = contact%sweeps + certificate%sweeps
-    contact%sweeps_since_row = contact%sweeps_since_row + certificate%sweeps
-    do k = 1, contact%rows
-      associate (c => contact%candidate(contact%row_of(k)))
-        c%r(1:contact%d) = contact%r(:, k)
-        c%status = contact%work%status(k)
-        if (.not. contact%r(1, k) > zero) c%status = contact_open
-        call spread_force(contact, c, c%r, force)
+        to_text(model%node_id(contact%rows%key(2, contact%row_of(certificate%worst)))))
+    call keep_worst(certificate, contact%tally%worst)
+    call keep_worst(certificate, contact%tally%worst_since_row)
+    contact%tally%sweeps = contact%tally%sweeps + certificate%sweeps
+    contact%tally%sweeps_since_row = contact%tally%sweeps_since_row + certificate%sweeps
+    do k = 1, contact%n
+      associate (rows => contact%rows, a => contact%row_of(k))
+        rows%r(1:contact%d, a) = contact%r(:, k)
+        rows%status(a) = contact%work%status(k)
+        if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open
+        call add_row_force(rows, a, one, rows%slot, force)
       end associate
     end do
     if (contact%d > 1) call count_wedging(contact)
@@ -127,11 +123,12 @@ contains
   pure subroutine count_wedging(contact)
     type(contact_t), intent(inout) :: contact
     integer :: k
-    do k = 1, contact%rows
+    do k = 1, contact%n
       if (.not. contact%r(1, k) > zero) cycle
       if (.not. may_wedge(contact%w(2*k - 1:2*k, 2*k - 1:2*k), contact%mu(k))) cycle
-      if (contact%wedged == 0) contact%wedged_node = contact%candidate(contact%row_of(k))%node
-      contact%wedged = contact%wedged + 1
+      if (contact%tally%wedged == 0) &
+          contact%tally%wedged_node = contact%rows%key(2, contact%row_of(k))
+      contact%tally%wedged = contact%tally%wedged + 1
     end do
   end subroutine count_wedging
 
@@ -149,28 +146,25 @@ contains
     logical, intent(inout) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
-    real(wp) :: motion(2), noise
     integer :: k
     done = .true.
     ! Rows of an earlier list, where nothing is listed now.
-    if (contact%rows == 0 .or. .not. contact%w_is_current) return
-    call size_cone_work(contact%work, contact%d, contact%rows)
-    do k = 1, contact%rows
-      associate (c => contact%candidate(contact%row_of(k)))
-        motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
-        contact%work%u(1, k) = c%gap + motion(1)
-        if (contact%d > 1) contact%work%u(2, k) = motion(2)
-        contact%r(:, k) = c%r(1:contact%d)
-        if (-contact%work%u(1, k) > half*contact%penetration_tolerance*c%length) done = .false.
+    if (contact%n == 0 .or. .not. contact%w_is_current) return
+    call size_cone_work(contact%work, contact%d, contact%n)
+    call find_displacements(contact, du)
+    do k = 1, contact%n
+      associate (rows => contact%rows, a => contact%row_of(k))
+        contact%work%u(:, k) = rows%u(1:contact%d, a)
+        contact%r(:, k) = rows%r(1:contact%d, a)
+        if (-rows%u(1, a) > half*contact%penetration_tolerance*rows%length(a)) done = .false.
       end associate
     end do
-    noise = gap_noise(contact, du)
     call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
-        contact%cone%tolerance, certificate, noise)
+        contact%cone%tolerance, certificate, gap_noise(contact, du))
     done = done .and. (certificate%met .or. .not. acting)
     if (done) return
     contact%q = contact%work%u - reshape(matmul(contact%w, &
-        reshape(contact%r, [contact%d*contact%rows])), [contact%d, contact%rows])
+        reshape(contact%r, [contact%d*contact%n])), [contact%d, contact%n])
     more = force
     force = zero
     call find_reactions(model, contact, force, certificate, status)
@@ -178,25 +172,41 @@ contains
     acting = acting .or. any(contact%r(1, :) > zero)
   end subroutine correct_contact
 
+  !> u = H dU + (c, 0) of all rows for the motion du (2, nodes).
+  pure subroutine find_displacements(contact, du)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: du(:, :)
+    integer :: a
+    associate (rows => contact%rows)
+      do a = 1, rows%n
+        rows%u(:, a) = relative_displacement(rows, a, rows%point, du)
+        rows%u(1, a) = rows%offset(a) + rows%u(1, a)
+      end do
+    end associate
+  end subroutine find_displacements
+
   !> Round-off of a gap: terms that nearly cancel at a touch [L].
   pure real(wp) function gap_noise(contact, du)
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: du(:, :)
     real(wp) :: terms
-    integer :: i
+    integer :: a
     terms = zero
-    do i = 1, contact%n
-      associate (c => contact%candidate(i))
-        if (c%valid) terms = terms + c%gap**2 + sum(du(:, c%node)**2) + sum(du(:, c%a)**2)
-      end associate
-    end do
+    associate (rows => contact%rows)
+      do a = 1, rows%n
+        associate (p => rows%point(rows%first(a):rows%first(a + 1) - 1))
+          terms = terms + rows%offset(a)**2 + sum(du(:, p(1))**2)
+          terms = terms + sum(du(:, p(min(2, size(p))))**2)
+        end associate
+      end do
+    end associate
     gap_noise = 8.0_wp*epsilon(terms)*sqrt(terms)
   end function gap_noise
 
-  !> After the step: true gap and slip of every candidate from the motion x (2, m) of the block,
-  !> the certificate of the reactions for that motion (to the round-off of gaps and motions,
-  !> which nearly cancel at a touch), penetration. Fails on what a scene must
-  !> not do in silence: penetration beyond the tolerance, prescribed motions that overlap.
+  !> After the step: u of every row for the motion du, the certificate of the reactions for it
+  !> (to the round-off of gaps and motions, which nearly cancel at a touch), penetration. Fails
+  !> on what a scene must not do in silence: penetration beyond the tolerance, prescribed motions
+  !> that overlap.
   subroutine settle_contact(model, contact, du, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -204,35 +214,47 @@ contains
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
-    real(wp) :: motion(2), depth
-    integer :: i, k
-    do i = 1, contact%n
-      associate (c => contact%candidate(i))
-        motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
-        c%u = [c%gap + motion(1), motion(2)]
-        depth = max(zero, -c%u(1))
-        if (.not. c%valid) cycle
-        contact%pair(c%pair)%penetration = max(contact%pair(c%pair)%penetration, depth)
-        contact%worst_penetration = max(contact%worst_penetration, depth/c%length)
-        if (depth > contact%penetration_tolerance*c%length .and. c%held) &
-            call fail(status, status_numerical, 'prescribed motions overlap: node '// &
-            to_text(model%node_id(c%node))//' is '//to_text(depth)//' deep in the other body', &
-            hint='both sides of this contact are held; change their motions')
-        if (depth > contact%penetration_tolerance*c%length) &
-            call fail(status, status_numerical, 'node '//to_text(model%node_id(c%node))// &
-            ' penetrates by '//to_text(depth)//', more than PENTOL times the edge', &
-            hint='lower TOL on *BIPACT_CONTACT')
-      end associate
-    end do
-    if (.not. acting) return
-    do k = 1, contact%rows
-      contact%work%u(:, k) = contact%candidate(contact%row_of(k))%u(1:contact%d)
-    end do
+    real(wp) :: depth
+    integer :: a, k
+    call find_displacements(contact, du)
+    associate (rows => contact%rows)
+      do a = 1, rows%n
+        depth = max(zero, -rows%u(1, a))
+        associate (sums => contact%pair(rows%key(1, a))%sums)
+          sums%penetration = max(sums%penetration, depth)
+        end associate
+        contact%tally%worst_penetration = &
+            max(contact%tally%worst_penetration, depth/rows%length(a))
+        if (depth > contact%penetration_tolerance*rows%length(a)) &
+            call fail_penetration(model, rows%key(2, a), depth, rows%is_rigid(a), status)
+      end do
+      if (.not. acting) return
+      do k = 1, contact%n
+        contact%work%u(:, k) = rows%u(1:contact%d, contact%row_of(k))
+      end do
+    end associate
     call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
-    call keep_worst(certificate, contact%worst)
-    call keep_worst(certificate, contact%worst_since_row)
+    call keep_worst(certificate, contact%tally%worst)
+    call keep_worst(certificate, contact%tally%worst_since_row)
   end subroutine settle_contact
+
+  subroutine fail_penetration(model, node, depth, is_rigid, status)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: node
+    real(wp), intent(in) :: depth
+    logical, intent(in) :: is_rigid
+    type(status_t), intent(inout) :: status
+    if (is_rigid) then
+      call fail(status, status_numerical, 'prescribed motions overlap: node '// &
+          to_text(model%node_id(node))//' is '//to_text(depth)//' deep in the other body', &
+          hint='both sides of this contact are held; change their motions')
+    else
+      call fail(status, status_numerical, 'node '//to_text(model%node_id(node))// &
+          ' penetrates by '//to_text(depth)//', more than PENTOL times the edge', &
+          hint='lower TOL on *BIPACT_CONTACT')
+    end if
+  end subroutine fail_penetration
 
   pure subroutine keep_worst(new, worst)
     type(certificate_t), intent(in) :: new

@@ -3,11 +3,12 @@
 !> the reference geometry (small displacements), the place on the edge is that of the moment.
 module contact_track
   use base_kinds, only: wp, zero, one
+  use contact_rows, only: rows_t, add_row
   use contact_surface, only: surface_t, edge_tangent
   use contact_types, only: candidate_t, pair_t
   implicit none
   private
-  public :: place_on_edge, gap_to_edge, update_candidate, candidate_gap
+  public :: place_on_edge, gap_to_edge, update_candidate, add_candidate_row
 
   !> A node this share of an edge beyond its end still belongs to it.
   real(wp), parameter, public :: end_tolerance = 1.0e-8_wp
@@ -41,13 +42,11 @@ contains
     end associate
   end function place_on_edge
 
-  !> Moves a candidate to the edge that its node faces now; changed tells whether its frame or
-  !> place differs from before.
-  pure subroutine update_candidate(pair, x, u, c, changed)
+  !> Moves a candidate to the edge that its node faces now.
+  pure subroutine update_candidate(pair, x, u, c)
     type(pair_t), intent(in) :: pair
     real(wp), intent(in) :: x(:, :), u(:, :)
     type(candidate_t), intent(inout) :: c
-    logical, intent(out) :: changed
     real(wp) :: xi, other, normal(2)
     integer :: edge, next, hop, side, came_from
     edge = c%edge
@@ -76,24 +75,26 @@ contains
     xi = min(one, max(zero, xi))
     if (xi <= end_tolerance) xi = zero
     if (xi >= one - end_tolerance) xi = one
-    changed = edge /= c%edge .or. abs(xi - c%xi) > zero .or. any(abs(normal - c%normal) > zero)
     c%edge = edge
-    c%a = pair%obstacle%end_node(1, edge)
-    c%b = pair%obstacle%end_node(2, edge)
     c%xi = xi
     c%normal = normal
-    c%length = pair%obstacle%length(edge)
-    c%gap = candidate_gap(c, x, u)
   end subroutine update_candidate
 
-  !> n . (position of the node - position of its place) [L], reference part and motion apart, so
-  !> that a small gap keeps its digits far from the origin.
-  pure real(wp) function candidate_gap(c, x, u)
-    type(candidate_t), intent(in) :: c
+  !> Adds the row of a candidate. Its gap is n . (position of the node - position of its place)
+  !> [L], reference part and motion apart, so that a small gap keeps its digits far from the
+  !> origin.
+  pure subroutine add_candidate_row(pair, x, u, c, rows)
+    type(pair_t), intent(in) :: pair
     real(wp), intent(in) :: x(:, :), u(:, :)
-    candidate_gap = dot_product(c%normal, &
-        (x(:, c%node) - x(:, c%a)) - c%xi*(x(:, c%b) - x(:, c%a))) &
-        + dot_product(c%normal, (u(:, c%node) - u(:, c%a)) - c%xi*(u(:, c%b) - u(:, c%a)))
-  end function candidate_gap
+    type(candidate_t), intent(in) :: c
+    type(rows_t), intent(inout) :: rows
+    real(wp) :: gap
+    associate (a => pair%obstacle%end_node(1, c%edge), b => pair%obstacle%end_node(2, c%edge))
+      gap = dot_product(c%normal, (x(:, c%node) - x(:, a)) - c%xi*(x(:, b) - x(:, a))) &
+          + dot_product(c%normal, (u(:, c%node) - u(:, a)) - c%xi*(u(:, b) - u(:, a)))
+      call add_row(rows, [c%pair, c%node, c%edge], [c%node, a, b], [one, c%xi - one, -c%xi], &
+          c%normal, gap, pair%mu, pair%obstacle%length(c%edge))
+    end associate
+  end subroutine add_candidate_row
 
 end module contact_track

@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact between boundaries: pairs of surfaces, candidates (a node near an edge) and the block
-!> of nodes they involve.
+!> Contact between boundaries: pairs of surfaces, candidates (a node near an edge), rows, and
+!> the condensed problem for them.
 module contact_types
   use base_kinds, only: wp, zero
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
+  use contact_rows, only: rows_t
   use contact_surface, only: surface_t
   implicit none
   private
@@ -22,6 +23,19 @@ module contact_types
     integer, allocatable :: status(:)
   end type node_forces_t
 
+  !> Sums over a pair for the tables.
+  type, public :: pair_sums_t
+    real(wp) :: force(2, 2) = zero         !< (xy, side) of the step just done [F]
+    real(wp) :: force_before(2, 2) = zero  !< of the step before
+    real(wp) :: impulse(2, 2) = zero       !< since t = 0 [F T]
+    real(wp) :: normal_force = zero, tangential_force = zero
+    real(wp) :: normal_work = zero         !< lost, cumulative [F L]
+    real(wp) :: friction_work = zero       !< lost, cumulative [F L]
+    real(wp) :: penetration = zero         !< largest since the last row of sleout [L]
+    real(wp) :: smallest_gap = no_gap
+    integer :: n_active = 0, n_stick = 0, n_slip = 0
+  end type pair_sums_t
+
   !> One contact card: the contactor's nodes against the obstacle's edges.
   type, public :: pair_t
     integer :: id = 0
@@ -39,17 +53,8 @@ module contact_types
     real(wp), allocatable :: contactor_reference(:, :), obstacle_reference(:, :)
     real(wp) :: safe_distance = -1.0_wp    !< [L]; < 0: never searched
     real(wp) :: moved = zero               !< bound of the relative motion since the search [L]
-    real(wp) :: room = zero                !< what the nodes may move before it is evaluated [L]
-    ! Results for the tables.
-    real(wp) :: force(2, 2) = zero         !< (xy, side) of the step just done [F]
-    real(wp) :: force_before(2, 2) = zero  !< of the step before
-    real(wp) :: impulse(2, 2) = zero       !< since t = 0 [F T]
-    real(wp) :: normal_force = zero, tangential_force = zero
-    real(wp) :: normal_work = zero         !< lost, cumulative [F L]
-    real(wp) :: friction_work = zero       !< lost, cumulative [F L]
-    real(wp) :: penetration = zero         !< largest since the last row [L]
-    real(wp) :: smallest_gap = no_gap
-    integer :: n_active = 0, n_stick = 0, n_slip = 0
+    real(wp) :: remaining_margin = zero    !< what nodes may move before it is evaluated [L]
+    type(pair_sums_t) :: sums
     type(node_forces_t), allocatable :: nodal  !< only where the table NCFORC is asked for
   end type pair_t
 
@@ -58,55 +63,54 @@ module contact_types
     integer :: pair = 0
     integer :: node = 0
     integer :: edge = 0
-    integer :: a = 0, b = 0        !< nodes of the edge
-    real(wp) :: xi = zero          !< place on the edge, 0 at a, 1 at b
-    real(wp) :: share = 1.0_wp     !< of the edge in the relative motion: 1; 0 at a wall
+    real(wp) :: xi = zero          !< place on the edge, 0 at its first node, 1 at its second
     real(wp) :: normal(2) = zero
-    real(wp) :: length = zero      !< of the edge [L]
-    real(wp) :: gap = zero         !< at the start of the step [L]
-    real(wp) :: r(2) = zero        !< reaction (n, t) of the step [F]
-    real(wp) :: last(2) = zero, older(2) = zero   !< of the two solves before [F]
-    real(wp) :: u(2) = zero        !< gap at the end and slip of the step [L]
-    integer :: status = 0
     logical :: valid = .false.     !< takes part in this step
-    logical :: held = .false.      !< both sides are prescribed: no row, only watched
   end type candidate_t
+
+  !> Counts and certificates for log and tables.
+  type, public :: tally_t
+    integer :: searches = 0, w_builds = 0, interface_changes = 0
+    integer :: solves = 0
+    integer :: sweeps = 0, sweeps_since_row = 0, solves_since_row = 0
+    type(certificate_t) :: worst, worst_since_row
+    real(wp) :: worst_penetration = zero          !< / edge length
+    integer :: wedged = 0, wedged_node = 0        !< contacts that may have several answers
+  end type tally_t
 
   type, public :: contact_t
     type(pair_t), allocatable :: pair(:)
-    integer :: n = 0
+    integer :: candidates = 0
     type(candidate_t), allocatable :: candidate(:)
-    !> of the step before (schemes with two forces)
-    type(candidate_t), allocatable :: before(:)
-    integer :: n_before = 0
+    type(candidate_t), allocatable :: last_list(:)  !< of the search before
+    integer :: last_candidates = 0
+    type(rows_t), allocatable :: rows             !< of the step
+    type(rows_t), allocatable :: next             !< work space: rows being made
+    type(rows_t), allocatable :: before           !< of the step before, where a scheme needs them
     logical :: keeps_before = .false.
     integer :: d = 2                              !< components per contact: 1 without friction
-    integer, allocatable :: block(:)              !< nodes of the contact block
-    integer, allocatable :: block_row(:)          !< (nodes) row in the block, 0 = not in it
-    real(wp), allocatable :: flexibility(:, :)    !< (2m, 2m) S^-1, fixed dofs cleared [L/F]
-    integer :: rows = 0                           !< valid candidates
-    integer, allocatable :: row_of(:)             !< candidate of each row
+    integer, allocatable :: interface_node(:)
+    integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
+    !> (2m, 2m) S^-1 of the interface, constrained dofs cleared [L/F]
+    real(wp), allocatable :: schur_inverse(:, :)
+    ! The condensed problem: rows that are not rigid.
+    integer :: n = 0
+    integer, allocatable :: row_of(:)             !< (n)
     real(wp), allocatable :: w(:, :), q(:, :), mu(:), r(:, :)
-    !> (6, rows of H) dofs of the block that a row takes, and their weights
-    integer, allocatable :: h_dof(:, :)
+    !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
+    integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
     logical :: w_is_current = .false.
     !> The last reactions were nearer to those of the solve before the last: forces alternate
     !> from step to step (theta = 1/2), and so will the next start.
     logical :: alternates = .false.
-    integer :: quiet = 0          !< solves in a row without a reaction, counted to 3
+    integer :: solves_without_contact = 0         !< in a row, counted to 3
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length
+    integer :: searched = 0                       !< pair that was searched last, for messages
     type(cone_options_t) :: cone
     type(cone_work_t) :: work
-    ! Counts for log and tables.
-    integer :: searched = 0       !< pair that was searched last, for messages
-    integer :: searches = 0, w_builds = 0, block_changes = 0
-    integer :: solves = 0
-    integer :: sweeps = 0, sweeps_since_row = 0, solves_since_row = 0
-    type(certificate_t) :: worst, worst_since_row
-    real(wp) :: worst_penetration = zero          !< / edge length
-    integer :: wedged = 0, wedged_node = 0        !< contacts that may have several answers
+    type(tally_t) :: tally
   end type contact_t
 
 end module contact_types

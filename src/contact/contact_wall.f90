@@ -1,17 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Rigid plane walls as obstacles: an analytic surface instead of edges, no degrees of freedom.
-!> A candidate at a wall has its own node in place of the nodes of an edge, with no share in it.
+!> A row at a wall has one point, the contactor's.
 module contact_wall
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical, status_deck
   use base_strings, only: to_text
+  use contact_rows, only: rows_t, add_row
   use contact_surface, only: make_surface
-  use contact_types, only: contact_t, pair_t, candidate_t
+  use contact_types, only: contact_t, pair_t
   use model_data, only: model_t, wall_t, side_node_set, side_all_nodes
   implicit none
   private
-  public :: make_wall, wall_distance, wall_candidate, update_wall_candidate, check_wall, &
-      mark_wall_nodes
+  public :: make_wall, wall_distance, add_wall_row, check_wall, mark_wall_nodes
 
 contains
 
@@ -44,29 +44,15 @@ contains
         + dot_product(pair%wall_normal, u(:, node))
   end function wall_distance
 
-  !> The candidate of a node at the wall.
-  pure function wall_candidate(pair, p, node) result(c)
+  !> Adds the row of a node at the wall.
+  pure subroutine add_wall_row(pair, p, x, u, node, rows)
     type(pair_t), intent(in) :: pair
     integer, intent(in) :: p, node
-    type(candidate_t) :: c
-    c%pair = p
-    c%node = node
-    c%a = node
-    c%b = node
-    c%share = zero
-    c%normal = pair%wall_normal
-    c%length = max(pair%contactor%mean_length, tiny(one))
-    c%valid = .true.
-  end function wall_candidate
-
-  !> Its gap now.
-  pure subroutine update_wall_candidate(pair, x, u, c)
-    type(pair_t), intent(in) :: pair
     real(wp), intent(in) :: x(:, :), u(:, :)
-    type(candidate_t), intent(inout) :: c
-    c%gap = wall_distance(pair, x, u, c%node)
-    c%valid = .true.
-  end subroutine update_wall_candidate
+    type(rows_t), intent(inout) :: rows
+    call add_row(rows, [p, node, 0], [node], [one], pair%wall_normal, &
+        wall_distance(pair, x, u, node), pair%mu, max(pair%contactor%mean_length, tiny(one)))
+  end subroutine add_wall_row
 
   !> Fails when a node that was not watched stands behind the wall.
   subroutine check_wall(model, contact, pair, node, gap, cycle, status)

@@ -4,9 +4,8 @@ module contact_work
   use base_kinds, only: wp, zero
   use cone_certificate, only: bipotential_residual
   use cone_types, only: contact_open, contact_stick
-  use contact_condense, only: relative_motion
-  use contact_surface, only: edge_tangent
-  use contact_types, only: contact_t, candidate_t, node_forces_t, no_gap
+  use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force
+  use contact_types, only: contact_t, node_forces_t, pair_sums_t, no_gap
   implicit none
   private
 
@@ -18,56 +17,57 @@ module contact_work
     real(wp) :: allowed_growth = zero !< what the scheme's own bound lets the energy gain
   end type contact_work_t
 
-  public :: add_contact_step
+  public :: add_contact_step, subtract_contact_force
 
 contains
 
   !> Forces, impulses and works of the step just done. The bodies receive the mean reaction
-  !> weight_before r0 + weight_now r1 over a step of length h; x (2, m) is the motion of the
-  !> block.
+  !> weight_before r0 + weight_now r1 over a step of length h and of motion du (2, nodes).
   subroutine add_contact_step(contact, weight_before, weight_now, h, du, work)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: weight_before, weight_now, h
     real(wp), intent(in) :: du(:, :)
     type(contact_work_t), intent(inout) :: work
-    integer :: i, p
+    integer :: a, p
     do p = 1, size(contact%pair)
-      associate (pair => contact%pair(p))
-        pair%force_before = pair%force
-        pair%force = zero
-        pair%normal_force = zero
-        pair%tangential_force = zero
-        pair%n_active = 0
-        pair%n_stick = 0
-        pair%n_slip = 0
-        pair%smallest_gap = no_gap
-      end associate
-    end do
-    do p = 1, size(contact%pair)
+      call clear_sums(contact%pair(p)%sums)
       if (allocated(contact%pair(p)%nodal)) call clear_nodal(contact%pair(p)%nodal)
     end do
-    do i = 1, contact%n
-      call add_force(contact, contact%candidate(i))
-      if (allocated(contact%pair(contact%candidate(i)%pair)%nodal)) &
-          call add_nodal(contact%candidate(i), contact%pair(contact%candidate(i)%pair)%nodal)
+    do a = 1, contact%rows%n
+      associate (pair => contact%pair(contact%rows%key(1, a)))
+        call add_force(contact%rows, a, pair%contactor_side, pair%sums)
+        if (allocated(pair%nodal)) call add_nodal(contact%rows, a, pair%nodal)
+      end associate
       if (weight_before > zero) then
-        call add_weighted_work(contact, contact%candidate(i), weight_now, du, work)
+        call add_weighted_work(contact, contact%rows, a, weight_now, du, work)
       else
-        call add_implicit_work(contact, contact%candidate(i), work)
+        call add_implicit_work(contact, a, work)
       end if
     end do
     if (weight_before > zero) then
-      do i = 1, contact%n_before
-        call add_weighted_work(contact, contact%before(i), weight_before, du, work)
+      do a = 1, contact%before%n
+        call add_weighted_work(contact, contact%before, a, weight_before, du, work)
       end do
     end if
     do p = 1, size(contact%pair)
-      associate (pair => contact%pair(p))
-        pair%impulse = pair%impulse &
-            + h*(weight_before*pair%force_before + weight_now*pair%force)
+      associate (sums => contact%pair(p)%sums)
+        sums%impulse = sums%impulse &
+            + h*(weight_before*sums%force_before + weight_now*sums%force)
       end associate
     end do
   end subroutine add_contact_step
+
+  pure subroutine clear_sums(sums)
+    type(pair_sums_t), intent(inout) :: sums
+    sums%force_before = sums%force
+    sums%force = zero
+    sums%normal_force = zero
+    sums%tangential_force = zero
+    sums%n_active = 0
+    sums%n_stick = 0
+    sums%n_slip = 0
+    sums%smallest_gap = no_gap
+  end subroutine clear_sums
 
   pure subroutine clear_nodal(nodal)
     type(node_forces_t), intent(inout) :: nodal
@@ -79,85 +79,98 @@ contains
     nodal%status = contact_open
   end subroutine clear_nodal
 
-  !> Force, gap and slip of a candidate to its node and, in shares, to the nodes of its edge.
-  pure subroutine add_nodal(c, nodal)
-    type(candidate_t), intent(in) :: c
+  !> Force, gap and slip of a row to its nodes, in shares of their weights.
+  pure subroutine add_nodal(rows, a, nodal)
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a
     type(node_forces_t), intent(inout) :: nodal
-    real(wp) :: share(3), force(2)
-    integer :: k, at, node(3)
-    if (.not. c%valid) return
-    node = [c%node, c%a, c%b]
-    share = [1.0_wp, c%share*(1.0_wp - c%xi), c%share*c%xi]
-    force = c%normal*c%r(1) + edge_tangent(c%normal)*c%r(2)
-    do k = 1, 3
-      at = nodal%place(node(k), merge(1, 2, k == 1))
-      if (at == 0 .or. .not. share(k) > zero) cycle
-      nodal%force(:, at) = nodal%force(:, at) + merge(1.0_wp, -1.0_wp, k == 1)*share(k)*force
-      nodal%normal(at) = nodal%normal(at) + share(k)*c%r(1)
-      nodal%gap(at) = min(nodal%gap(at), c%u(1))
-      if (abs(c%u(2)) > abs(nodal%slip(at))) nodal%slip(at) = c%u(2)
-      nodal%status(at) = max(nodal%status(at), c%status)
+    real(wp) :: force(2)
+    integer :: k, at
+    force = row_force(rows, a)
+    do k = rows%first(a), rows%first(a + 1) - 1
+      at = nodal%place(rows%point(k), merge(1, 2, k == rows%first(a)))
+      if (at == 0 .or. .not. abs(rows%weight(k)) > zero) cycle
+      nodal%force(:, at) = nodal%force(:, at) + rows%weight(k)*force
+      nodal%normal(at) = nodal%normal(at) + abs(rows%weight(k))*rows%r(1, a)
+      nodal%gap(at) = min(nodal%gap(at), rows%u(1, a))
+      if (abs(rows%u(2, a)) > abs(nodal%slip(at))) nodal%slip(at) = rows%u(2, a)
+      nodal%status(at) = max(nodal%status(at), rows%status(a))
     end do
   end subroutine add_nodal
 
-  subroutine add_force(contact, c)
-    type(contact_t), intent(inout) :: contact
-    type(candidate_t), intent(in) :: c
+  !> Force of a row to the sums of its pair; side is that of the contactor.
+  pure subroutine add_force(rows, a, side, sums)
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a, side
+    type(pair_sums_t), intent(inout) :: sums
     real(wp) :: force(2)
-    associate (pair => contact%pair(c%pair))
-      if (c%valid) pair%smallest_gap = min(pair%smallest_gap, c%u(1))
-      if (c%status == contact_open) return
-      force = c%normal*c%r(1) + edge_tangent(c%normal)*c%r(2)
-      pair%force(:, pair%contactor_side) = pair%force(:, pair%contactor_side) + force
-      pair%force(:, 3 - pair%contactor_side) = pair%force(:, 3 - pair%contactor_side) - force
-      pair%normal_force = pair%normal_force + c%r(1)
-      pair%tangential_force = pair%tangential_force + abs(c%r(2))
-      pair%n_active = pair%n_active + 1
-      if (c%status == contact_stick) then
-        pair%n_stick = pair%n_stick + 1
-      else
-        pair%n_slip = pair%n_slip + 1
-      end if
-    end associate
+    sums%smallest_gap = min(sums%smallest_gap, rows%u(1, a))
+    if (rows%status(a) == contact_open) return
+    force = row_force(rows, a)
+    sums%force(:, side) = sums%force(:, side) + force
+    sums%force(:, 3 - side) = sums%force(:, 3 - side) - force
+    sums%normal_force = sums%normal_force + rows%r(1, a)
+    sums%tangential_force = sums%tangential_force + abs(rows%r(2, a))
+    sums%n_active = sums%n_active + 1
+    if (rows%status(a) == contact_stick) then
+      sums%n_stick = sums%n_stick + 1
+    else
+      sums%n_slip = sums%n_slip + 1
+    end if
   end subroutine add_force
 
-  !> Reaction at the end of the step only: r.(H x) = - mu r_n |u_t| - r_n g0 + e with the
+  !> Reaction at the end of the step only: r.(H x) = - mu r_n |u_t| - r_n c + e with the
   !> bi-potential residual e; each term by its own formula.
-  subroutine add_implicit_work(contact, c, work)
+  subroutine add_implicit_work(contact, a, work)
     type(contact_t), intent(inout) :: contact
-    type(candidate_t), intent(in) :: c
+    integer, intent(in) :: a
     type(contact_work_t), intent(inout) :: work
     real(wp) :: friction, normal
-    if (c%status == contact_open) return
-    associate (pair => contact%pair(c%pair))
-      friction = pair%mu*c%r(1)*abs(c%u(2))
-      normal = c%r(1)*c%gap
-      pair%friction_work = pair%friction_work + friction
-      pair%normal_work = pair%normal_work + normal
+    if (contact%rows%status(a) == contact_open) return
+    associate (rows => contact%rows, d => contact%d)
+      friction = rows%mu(a)*rows%r(1, a)*abs(rows%u(2, a))
+      normal = rows%r(1, a)*rows%offset(a)
+      associate (sums => contact%pair(rows%key(1, a))%sums)
+        sums%friction_work = sums%friction_work + friction
+        sums%normal_work = sums%normal_work + normal
+      end associate
       work%friction = work%friction + friction
       work%normal = work%normal + normal
       work%unsolved = work%unsolved &
-          + bipotential_residual(pair%mu, c%r(1:contact%d), c%u(1:contact%d))
+          + bipotential_residual(rows%mu(a), rows%r(1:d, a), rows%u(1:d, a))
       work%allowed_growth = work%allowed_growth + max(zero, -normal)
     end associate
   end subroutine add_implicit_work
 
   !> Any mean of reactions: their work as it is, of either sign.
-  subroutine add_weighted_work(contact, c, weight, du, work)
+  subroutine add_weighted_work(contact, rows, a, weight, du, work)
     type(contact_t), intent(inout) :: contact
-    type(candidate_t), intent(in) :: c
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a
     real(wp), intent(in) :: weight
     real(wp), intent(in) :: du(:, :)
     type(contact_work_t), intent(inout) :: work
-    real(wp) :: motion(2)
-    if (c%status == contact_open) return
-    motion = relative_motion(c, du(:, c%node), du(:, c%a), du(:, c%b))
-    associate (pair => contact%pair(c%pair))
-      pair%friction_work = pair%friction_work - weight*c%r(2)*motion(2)
-      pair%normal_work = pair%normal_work - weight*c%r(1)*motion(1)
+    real(wp) :: u(2)
+    if (rows%status(a) == contact_open) return
+    u = relative_displacement(rows, a, rows%point, du)
+    associate (sums => contact%pair(rows%key(1, a))%sums)
+      sums%friction_work = sums%friction_work - weight*rows%r(2, a)*u(2)
+      sums%normal_work = sums%normal_work - weight*rows%r(1, a)*u(1)
     end associate
-    work%friction = work%friction - weight*c%r(2)*motion(2)
-    work%normal = work%normal - weight*c%r(1)*motion(1)
+    work%friction = work%friction - weight*rows%r(2, a)*u(2)
+    work%normal = work%normal - weight*rows%r(1, a)*u(1)
   end subroutine add_weighted_work
+
+  !> f = f - factor H' r of all rows, f (2, nodes).
+  pure subroutine subtract_contact_force(contact, factor, f)
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: factor
+    real(wp), intent(inout) :: f(:, :)
+    integer :: a
+    do a = 1, contact%rows%n
+      if (contact%rows%r(1, a) > zero) &
+          call add_row_force(contact%rows, a, -factor, contact%rows%point, f)
+    end do
+  end subroutine subtract_contact_force
 
 end module contact_work

@@ -58,13 +58,15 @@ contains
     type(real_writer_t), intent(in) :: writer
     type(pair_t), intent(in) :: pair
     integer, intent(in) :: side
-    call add_numbers(file, writer, &
-        [pair%force(:, side), zero, half*(pair%force(:, side) + pair%force_before(:, side)), &
-        zero, pair%impulse(:, side), zero, pair%normal_force, pair%tangential_force])
-    call add_count(file, pair%n_active)
-    call add_count(file, pair%n_stick)
-    call add_count(file, pair%n_slip)
-    call add_number(file, writer, pair%smallest_gap)
+    associate (s => pair%sums)
+      call add_numbers(file, writer, [s%force(:, side), zero, &
+          half*(s%force(:, side) + s%force_before(:, side)), zero, s%impulse(:, side), zero, &
+          s%normal_force, s%tangential_force])
+      call add_count(file, s%n_active)
+      call add_count(file, s%n_stick)
+      call add_count(file, s%n_slip)
+      call add_number(file, writer, s%smallest_gap)
+    end associate
     call end_row(file)
   end subroutine add_sums
 
@@ -86,24 +88,24 @@ contains
       if (p == 0) then
         call add_count(file, 0)
         call add_numbers(file, writer, &
-            [sum(contact%pair%normal_work), sum(contact%pair%friction_work)])
+            [sum(contact%pair%sums%normal_work), sum(contact%pair%sums%friction_work)])
       else
         call add_count(file, contact%pair(p)%id)
         call add_numbers(file, writer, &
-            [contact%pair(p)%normal_work, contact%pair(p)%friction_work])
+            [contact%pair(p)%sums%normal_work, contact%pair(p)%sums%friction_work])
       end if
-      call add_count(file, contact%solves_since_row)
-      call add_count(file, contact%sweeps_since_row)
-      call add_numbers(file, writer, [contact%worst_since_row%eta, &
-          contact%worst_since_row%error, contact%worst_since_row%error2018])
-      if (p == 0) call add_number(file, writer, maxval([zero, contact%pair%penetration]))
-      if (p > 0) call add_number(file, writer, contact%pair(p)%penetration)
+      call add_count(file, contact%tally%solves_since_row)
+      call add_count(file, contact%tally%sweeps_since_row)
+      call add_numbers(file, writer, [contact%tally%worst_since_row%eta, &
+          contact%tally%worst_since_row%error, contact%tally%worst_since_row%error2018])
+      if (p == 0) call add_number(file, writer, maxval([zero, contact%pair%sums%penetration]))
+      if (p > 0) call add_number(file, writer, contact%pair(p)%sums%penetration)
       call end_row(file)
     end do
-    contact%solves_since_row = 0
-    contact%sweeps_since_row = 0
-    contact%worst_since_row = certificate_t()
-    contact%pair%penetration = zero
+    contact%tally%solves_since_row = 0
+    contact%tally%sweeps_since_row = 0
+    contact%tally%worst_since_row = certificate_t()
+    contact%pair%sums%penetration = zero
   end subroutine write_sleout
 
   !> Nodes that are listed, or were pressed in this step or the last.

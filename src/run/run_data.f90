@@ -60,7 +60,7 @@ module run_data
     type(timers_t) :: timers
     real(wp), allocatable :: b(:, :), x(:, :)              !< (2, n)
     real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (2, n) only with loads [F]
-    real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) contact block
+    real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) interface
     real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
     ! (2, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)

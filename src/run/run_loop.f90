@@ -55,7 +55,7 @@ contains
     call clear_progress(progress)
   end subroutine go_through_steps
 
-  !> One step, stage by stage: free motion, contact on its block, whole motion, new state,
+  !> One step, stage by stage: free motion, contact on its interface, whole motion, new state,
   !> ledger.
   subroutine advance(run, status)
     type(run_t), intent(inout) :: run
@@ -117,7 +117,7 @@ contains
           acting, status)
       if (done) return
       run%b = zero
-      call add_block(run, run%x_last)
+      call add_interface_forces(run, run%x_last)
       call add_correction(run)
       call refine_motion(run, stage)
     end do
@@ -133,19 +133,19 @@ contains
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
     call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
-    if (run%plan%contact) call add_block(run, run%force)
+    if (run%plan%contact) call add_interface_forces(run, run%force)
     call add_correction(run)
   end subroutine refine_motion
 
-  !> Adds forces of the block (2, m) to b.
-  pure subroutine add_block(run, force)
+  !> Adds forces of the interface (2, m) to b.
+  pure subroutine add_interface_forces(run, force)
     type(run_t), intent(inout) :: run
     real(wp), intent(in) :: force(:, :)
     integer :: k
-    do k = 1, size(run%contact%block)
-      run%b(:, run%contact%block(k)) = run%b(:, run%contact%block(k)) + force(:, k)
+    do k = 1, size(run%contact%interface_node)
+      run%b(:, run%contact%interface_node(k)) = run%b(:, run%contact%interface_node(k)) + force(:, k)
     end do
-  end subroutine add_block
+  end subroutine add_interface_forces
 
   !> x = x + A^-1 b, held dofs kept.
   subroutine add_correction(run)
@@ -196,34 +196,34 @@ contains
     end if
   end subroutine hold_dofs
 
-  !> Candidates for the step; a larger block means another elimination order.
+  !> Candidates for the step; a larger interface means another elimination order.
   subroutine prepare_contact(run, t1, status)
     type(run_t), intent(inout) :: run
     real(wp), intent(in) :: t1
     type(status_t), intent(inout) :: status
-    logical :: new_block
+    logical :: new_interface
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
-        run%largest_motion, run%scheme%h, run%state%cycle, t1, new_block, status)
+        run%largest_motion, run%scheme%h, run%state%cycle, t1, new_interface, status)
     if (failed(status)) call add_place(status, moment(run))
-    if (new_block) call factor_matrix(run, .true., status)
+    if (new_interface) call factor_matrix(run, .true., status)
   end subroutine prepare_contact
 
-  !> Contact on the block: reactions for the free motion x_last, then the motion with them.
+  !> Contact on the interface: reactions for the free motion x_last, then the motion with them.
   subroutine add_contact(run, acting, status)
     type(run_t), intent(inout) :: run
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
     acting = .false.
     run%force = zero
-    if (run%contact%n == 0 .or. size(run%contact%block) == 0) return
+    if (run%contact%rows%n == 0) return
     call run%timers%enter(phase_contact)
     call build_w(run%contact)
     call solve_contact(run%model, run%contact, run%x_last, run%force, acting, status)
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
-    call clear_block_forces(run)
+    call clear_constrained_forces(run)
     run%x_last = run%b_last + run%force
     call run%solver%solve_last(run%x_last)
   end subroutine add_contact
@@ -244,14 +244,14 @@ contains
     end associate
   end subroutine dump_contact
 
-  subroutine clear_block_forces(run)
+  subroutine clear_constrained_forces(run)
     type(run_t), intent(inout) :: run
     integer :: k, row
     do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%block_row(run%system%fixed_list(2, k))
+      row = run%contact%slot(run%system%fixed_list(2, k))
       if (row > 0) run%force(run%system%fixed_list(1, k), row) = zero
     end do
-  end subroutine clear_block_forces
+  end subroutine clear_constrained_forces
 
   !> Loads at both ends of the step, and their weighted sum into b.
   subroutine weigh_loads(run, t1)
@@ -311,7 +311,7 @@ contains
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
         + run%scheme%dissipation(run%system, run%state)
     if (.not. run%plan%contact) return
-    if (run%contact%n == 0 .and. run%contact%n_before == 0) return
+    if (run%contact%rows%n == 0 .and. run%contact%before%n == 0) return
     call run%timers%enter(phase_contact)
     call settle_contact(run%model, run%contact, run%state%du, acting, status)
     call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &

@@ -5,7 +5,7 @@ module run_motion
   use assembly_forces, only: add_loads, subtract_internal_force, subtract_damping_force
   use assembly_system, only: multiply_mass, clear_fixed, list_fixed
   use base_kinds, only: wp, zero, one
-  use contact_condense, only: subtract_contact_force
+  use contact_work, only: subtract_contact_force
   use model_data, only: motion_t, curve_value
   use run_data, only: run_t
   implicit none

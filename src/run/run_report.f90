@@ -97,14 +97,14 @@ contains
     if (run%ledger%first_growth >= 0) call add_warning(run%deck%problems, &
         'energy-growth: the energy rose by '//to_text(run%ledger%largest_growth)// &
         ' of the largest term; first seen at step '//to_text(run%ledger%first_growth))
-    if (run%contact%solves > 0 .and. .not. run%contact%worst%met) &
+    if (run%contact%tally%solves > 0 .and. .not. run%contact%tally%worst%met) &
         call add_warning(run%deck%problems, 'certificate: in some step the contact forces '// &
-        'meet their law only to error '//to_text(run%contact%worst%error)//', eta '// &
-        to_text(run%contact%worst%eta)//' for the motion as computed')
-    if (run%contact%wedged > 0) call add_warning(run%deck%problems, 'wedging: '// &
-        to_text(run%contact%wedged)//' times friction was so large at a contact '// &
+        'meet their law only to error '//to_text(run%contact%tally%worst%error)//', eta '// &
+        to_text(run%contact%tally%worst%eta)//' for the motion as computed')
+    if (run%contact%tally%wedged > 0) call add_warning(run%deck%problems, 'wedging: '// &
+        to_text(run%contact%tally%wedged)//' times friction was so large at a contact '// &
         '(mu |W_nt| > W_nn) that several answers may exist; first at node '// &
-        to_text(run%model%node_id(run%contact%wedged_node)))
+        to_text(run%model%node_id(run%contact%tally%wedged_node)))
     if (run%ledger%contact%allowed_growth > run%model%controls%growth*run%ledger%largest) &
         call add_note(run%deck%problems, 'energy: closing penetrations that sliding along '// &
         'deformed edges had made gave the bodies '// &
@@ -122,7 +122,7 @@ contains
     integer, intent(in) :: unit
     real(wp) :: cpu
     call cpu_time(cpu)
-    associate (l => run%ledger, c => run%contact)
+    associate (l => run%ledger, c => run%contact%tally)
       write (unit, '(a)') 'steps '//to_text(run%state%cycle)//', time '// &
           to_text(run%state%time)//', CPU '//to_text(cpu)//' s'
       write (unit, '(a)') 'factorisations '//to_text(run%factors)//', solves '// &

@@ -55,7 +55,7 @@ contains
       call make_contact(run%model, run%cone, run%contact)
       if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
     else
-      allocate (run%contact%block(0), run%contact%pair(0))
+      allocate (run%contact%interface_node(0), run%contact%pair(0), run%contact%rows)
     end if
     call make_system(run%model, massless, run%system, status)
     if (failed(status)) return
@@ -114,17 +114,17 @@ contains
   subroutine first_candidates(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    logical :: new_block
+    logical :: new_interface
     if (.not. run%plan%contact .or. failed(status)) return
     call run%timers%enter(phase_search)
     call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, zero, &
-        run%scheme%h, 0, run%scheme%h, new_block, status)
+        run%scheme%h, 0, run%scheme%h, new_interface, status)
     if (failed(status)) &
         call add_place(status, run%deck%place(run%contact%pair(run%contact%searched)%record))
   end subroutine first_candidates
 
-  !> Factor of the effective matrix, with the contact block last and its flexibility; again is
-  !> true when the block has changed and the order must be found anew.
+  !> Factor of the effective matrix, with the interface nodes last and their flexibility; again is
+  !> true when the interface has changed and the order must be found anew.
   subroutine factor_matrix(run, again, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: again
@@ -135,34 +135,34 @@ contains
     associate (stage => run%scheme%stage(1))
       call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_k, run%matrix)
     end associate
-    m = size(run%contact%block)
+    m = size(run%contact%interface_node)
     if (again) then
-      call run%solver%analyse(run%system%graph, run%contact%block, status)
+      call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
       run%analyses = run%analyses + 1
       if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
       allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
       if (2*m > run%solver_options%block_limit) &
-          call add_note(run%deck%problems, 'the contact block has '//to_text(2*m)// &
+          call add_note(run%deck%problems, 'the contact interface has '//to_text(2*m)// &
           ' dofs, more than NLAST; it is kept dense all the same')
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
-    if (m > 0) call block_flexibility(run)
+    if (m > 0) call interface_flexibility(run)
   end subroutine factor_matrix
 
-  !> S^-1 of the block; fixed dofs do not move, whatever the force.
-  subroutine block_flexibility(run)
+  !> S^-1 of the interface; fixed dofs do not move, whatever the force.
+  subroutine interface_flexibility(run)
     type(run_t), intent(inout) :: run
     integer :: k, row
-    call run%solver%flexibility(run%contact%flexibility)
+    call run%solver%flexibility(run%contact%schur_inverse)
     do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%block_row(run%system%fixed_list(2, k))
+      row = run%contact%slot(run%system%fixed_list(2, k))
       if (row == 0) cycle
       row = 2*row - 2 + run%system%fixed_list(1, k)
-      run%contact%flexibility(row, :) = zero
-      run%contact%flexibility(:, row) = zero
+      run%contact%schur_inverse(row, :) = zero
+      run%contact%schur_inverse(:, row) = zero
     end do
     run%contact%w_is_current = .false.
-  end subroutine block_flexibility
+  end subroutine interface_flexibility
 
 end module run_setup

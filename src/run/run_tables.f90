@@ -56,7 +56,7 @@ contains
         call write_ncforc(file, writer, model, run%contact, time, status)
       case (table_timing)
         call write_timing(file, writer, state, run%timers, run%factors, run%solves, &
-            run%contact%sweeps, status)
+            run%contact%tally%sweeps, status)
       end select
     end associate
   end subroutine write_one

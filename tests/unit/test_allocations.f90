@@ -145,12 +145,12 @@ contains
     do k = 1, steps
       call advance(run, status)
     end do
-    call check_true(run%contact%solves > 0, deck//' has its impact')
+    call check_true(run%contact%tally%solves > 0, deck//' has its impact')
     ! A search, a new block or new rows of W make lists; a step makes none.
-    associate (c => run%contact)
+    associate (c => run%contact%tally)
       call check_true(allocations_so_far() - before <= &
-          10*(c%searches + c%block_changes + c%w_builds), deck//': none in a step')
-      call check_true(10*(c%searches + c%block_changes + c%w_builds) < steps/2, &
+          10*(c%searches + c%interface_changes + c%w_builds), deck//': none in a step')
+      call check_true(10*(c%searches + c%interface_changes + c%w_builds) < steps/2, &
           deck//': the bound says something')
     end associate
   end subroutine test_steps

@@ -52,24 +52,24 @@ contains
     do k = 1, 500
       before = run%ledger
       call advance(run, status)
-      if (any(run%contact%candidate(1:run%contact%n)%r(1) > zero)) exit
+      if (any(run%contact%rows%r(1, :run%contact%rows%n) > zero)) exit
     end do
-    k = maxloc(run%contact%candidate(1:run%contact%n)%r(1), dim=1)
-    associate (c => run%contact%candidate(k))
-      call check_true(c%r(1) > zero .and. c%gap > zero, deck//' closes its gap')
+    k = maxloc(run%contact%rows%r(1, :run%contact%rows%n), dim=1)
+    associate (rows => run%contact%rows, node => run%contact%rows%key(2, k))
+      call check_true(rows%r(1, k) > zero .and. rows%gap(k) > zero, deck//' closes its gap')
       call check_close(residual(run, run%ledger), zero, bound, deck//' as it is')
 
-      c%r(1) = c%r(1)*(one + off)
+      rows%r(1, k) = rows%r(1, k)*(one + off)
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%state%du, before%contact)
       call check_true(abs(residual(run, before)) > 10.0_wp*bound, deck//' feels a reaction')
 
-      old = run%state%v(1, c%node)
-      run%state%v(1, c%node) = old + off
+      old = run%state%v(1, node)
+      run%state%v(1, node) = old + off
       call check_true(abs(residual(run, run%ledger)) > 10.0_wp*bound, deck//' feels a velocity')
-      run%state%v(1, c%node) = old
+      run%state%v(1, node) = old
 
-      run%state%u(1, c%node) = run%state%u(1, c%node) + 1.0e-2_wp*off
+      run%state%u(1, node) = run%state%u(1, node) + 1.0e-2_wp*off
       call check_true(abs(residual(run, run%ledger)) > 10.0_wp*bound, deck//' feels a place')
     end associate
   end subroutine test_perturbations

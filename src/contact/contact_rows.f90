@@ -1,0 +1,270 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Rows of contact as plain arrays. Row a says how its contactor point moves relative to the
+!> obstacle: points k with weights c_k (contactor 1, obstacle negative, sum 0; at a wall the
+!> contactor alone), a normal n, t = n turned by +90 degrees:
+!>   H_a = [n t]' sum_k c_k I_k,   u_a = H_a dU + (c, 0),   nodal forces = H' r.
+!> The sum of the nodal forces of a row is zero because the weights sum to zero.
+module contact_rows
+  use base_kinds, only: wp, zero
+  use cone_types, only: contact_open
+  implicit none
+  private
+
+  type, public :: rows_t
+    integer :: n = 0
+    integer, allocatable :: key(:, :)      !< (3, n) pair, contactor node, edge
+    integer, allocatable :: first(:)       !< (n + 1) first point of a row
+    integer, allocatable :: point(:)       !< nodes, contactor first
+    integer, allocatable :: slot(:)        !< the same among the interface nodes
+    real(wp), allocatable :: weight(:)     !< c_k
+    real(wp), allocatable :: normal(:, :)  !< (2, n)
+    real(wp), allocatable :: gap(:)        !< at the start of the step [L]
+    real(wp), allocatable :: offset(:)     !< c of u_n [L]
+    real(wp), allocatable :: mu(:)
+    real(wp), allocatable :: length(:)     !< of the edge [L]
+    logical, allocatable :: is_rigid(:)    !< both sides constrained: W_nn = 0, only watched
+    ! Reactions (n, t) of this step and of the two solves before [F], displacement [L], status.
+    real(wp), allocatable :: r(:, :), r_previous(:, :), r_older(:, :), u(:, :)
+    integer, allocatable :: status(:)
+  end type rows_t
+
+  public :: start_rows, add_row, swap_rows, same_geometry, carry_reactions, find_slots, &
+      relative_displacement, row_force, add_row_force, row_of_h
+
+contains
+
+  !> Empties the list; room for n rows, where given, or some.
+  pure subroutine start_rows(rows, n)
+    type(rows_t), intent(inout) :: rows
+    integer, intent(in), optional :: n
+    if (.not. allocated(rows%key)) call size_rows(rows, 16)
+    if (present(n)) then
+      if (size(rows%gap) < n) call size_rows(rows, n)
+    end if
+    rows%n = 0
+    rows%first(1) = 1
+  end subroutine start_rows
+
+  !> Storage for n rows of at most three points; what is in it is kept.
+  pure subroutine size_rows(rows, n)
+    type(rows_t), intent(inout) :: rows
+    integer, intent(in) :: n
+    call size_integers(rows%key, 3, n)
+    call size_reals(rows%normal, 2, n)
+    call size_reals(rows%r, 2, n)
+    call size_reals(rows%r_previous, 2, n)
+    call size_reals(rows%r_older, 2, n)
+    call size_reals(rows%u, 2, n)
+    call size_real(rows%weight, 3*n)
+    call size_real(rows%gap, n)
+    call size_real(rows%offset, n)
+    call size_real(rows%mu, n)
+    call size_real(rows%length, n)
+    call size_integer(rows%first, n + 1)
+    call size_integer(rows%point, 3*n)
+    call size_integer(rows%slot, 3*n)
+    call size_integer(rows%status, n)
+    if (allocated(rows%is_rigid)) deallocate (rows%is_rigid)
+    allocate (rows%is_rigid(n))
+    rows%is_rigid = .false.
+  end subroutine size_rows
+
+  pure subroutine size_reals(a, m, n)
+    real(wp), allocatable, intent(inout) :: a(:, :)
+    integer, intent(in) :: m, n
+    real(wp), allocatable :: longer(:, :)
+    allocate (longer(m, n))
+    longer = zero
+    if (allocated(a)) longer(:, :size(a, 2)) = a
+    call move_alloc(longer, a)
+  end subroutine size_reals
+
+  pure subroutine size_real(a, n)
+    real(wp), allocatable, intent(inout) :: a(:)
+    integer, intent(in) :: n
+    real(wp), allocatable :: longer(:)
+    allocate (longer(n))
+    longer = zero
+    if (allocated(a)) longer(:size(a)) = a
+    call move_alloc(longer, a)
+  end subroutine size_real
+
+  pure subroutine size_integers(a, m, n)
+    integer, allocatable, intent(inout) :: a(:, :)
+    integer, intent(in) :: m, n
+    integer, allocatable :: longer(:, :)
+    allocate (longer(m, n))
+    longer = 0
+    if (allocated(a)) longer(:, :size(a, 2)) = a
+    call move_alloc(longer, a)
+  end subroutine size_integers
+
+  pure subroutine size_integer(a, n)
+    integer, allocatable, intent(inout) :: a(:)
+    integer, intent(in) :: n
+    integer, allocatable :: longer(:)
+    allocate (longer(n))
+    longer = 0
+    if (allocated(a)) longer(:size(a)) = a
+    call move_alloc(longer, a)
+  end subroutine size_integer
+
+  !> Adds a row: key, points and weights, normal, gap [L], mu, edge length [L]; no reaction yet.
+  pure subroutine add_row(rows, key, point, weight, normal, gap, mu, length)
+    type(rows_t), intent(inout) :: rows
+    integer, intent(in) :: key(3), point(:)
+    real(wp), intent(in) :: weight(:), normal(2), gap, mu, length
+    integer :: k
+    if (rows%n == size(rows%gap)) call size_rows(rows, 2*rows%n)
+    rows%n = rows%n + 1
+    associate (a => rows%n)
+      rows%key(:, a) = key
+      rows%first(a + 1) = rows%first(a) + size(point)
+      do k = 1, size(point)
+        rows%point(rows%first(a) + k - 1) = point(k)
+        rows%weight(rows%first(a) + k - 1) = weight(k)
+      end do
+      rows%normal(:, a) = normal
+      rows%gap(a) = gap
+      rows%offset(a) = gap
+      rows%mu(a) = mu
+      rows%length(a) = length
+      rows%is_rigid(a) = .false.
+      rows%r(:, a) = zero
+      rows%r_previous(:, a) = zero
+      rows%r_older(:, a) = zero
+      rows%u(:, a) = zero
+      rows%status(a) = contact_open
+    end associate
+  end subroutine add_row
+
+  !> Exchanges two lists without copying.
+  pure subroutine swap_rows(a, b)
+    type(rows_t), allocatable, intent(inout) :: a, b
+    type(rows_t), allocatable :: c
+    call move_alloc(a, c)
+    call move_alloc(b, a)
+    call move_alloc(c, b)
+  end subroutine swap_rows
+
+  !> True when W of the two lists is the same: points, weights and normals to the last bit.
+  pure logical function same_geometry(a, b)
+    type(rows_t), intent(in) :: a, b
+    integer :: k
+    same_geometry = a%n == b%n
+    if (.not. same_geometry) return
+    same_geometry = a%first(a%n + 1) == b%first(b%n + 1)
+    if (.not. same_geometry) return
+    do k = 1, a%n
+      if (a%first(k) /= b%first(k) .or. any(a%key(:, k) /= b%key(:, k)) .or. &
+          any(abs(a%normal(:, k) - b%normal(:, k)) > zero) .or. &
+          abs(a%mu(k) - b%mu(k)) > zero) same_geometry = .false.
+    end do
+    do k = 1, a%first(a%n + 1) - 1
+      if (a%point(k) /= b%point(k) .or. abs(a%weight(k) - b%weight(k)) > zero) &
+          same_geometry = .false.
+    end do
+  end function same_geometry
+
+  !> Reactions of rows that were on the old list; both lists are in the same order of their
+  !> pairs and nodes.
+  pure subroutine carry_reactions(old, rows)
+    type(rows_t), intent(in) :: old
+    type(rows_t), intent(inout) :: rows
+    integer :: a, b
+    b = 1
+    do a = 1, rows%n
+      do while (b < old%n .and. before(old%key(1:2, b), rows%key(1:2, a)))
+        b = b + 1
+      end do
+      if (b > old%n) return
+      if (any(old%key(1:2, b) /= rows%key(1:2, a))) cycle
+      rows%r(:, a) = old%r(:, b)
+      rows%r_previous(:, a) = old%r_previous(:, b)
+      rows%r_older(:, a) = old%r_older(:, b)
+      rows%status(a) = old%status(b)
+    end do
+  end subroutine carry_reactions
+
+  pure logical function before(a, b)
+    integer, intent(in) :: a(2), b(2)
+    before = a(1) < b(1) .or. (a(1) == b(1) .and. a(2) < b(2))
+  end function before
+
+  !> Places of the points among the interface nodes; slot (nodes of the model).
+  pure subroutine find_slots(slot, rows)
+    integer, intent(in) :: slot(:)
+    type(rows_t), intent(inout) :: rows
+    integer :: k
+    do k = 1, rows%first(rows%n + 1) - 1
+      rows%slot(k) = slot(rows%point(k))
+    end do
+  end subroutine find_slots
+
+  !> (n, t) components of sum_k c_k x_k of row a [L for displacements]: relative to the first
+  !> obstacle point, so that a small difference keeps its digits. column: rows%point for x of
+  !> all nodes, rows%slot for x of the interface.
+  pure function relative_displacement(rows, a, column, x) result(u)
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a, column(:)
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: u(2), d(2)
+    integer :: k, reference
+    d = x(:, column(rows%first(a)))
+    if (rows%first(a + 1) > rows%first(a) + 1) then
+      reference = column(rows%first(a) + 1)
+      d = d - x(:, reference)
+      do k = rows%first(a) + 2, rows%first(a + 1) - 1
+        d = d + rows%weight(k)*(x(:, column(k)) - x(:, reference))
+      end do
+    end if
+    u(1) = rows%normal(1, a)*d(1) + rows%normal(2, a)*d(2)
+    u(2) = rows%normal(1, a)*d(2) - rows%normal(2, a)*d(1)
+  end function relative_displacement
+
+  !> Force on the contactor of row a [F], in x and y.
+  pure function row_force(rows, a) result(force)
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a
+    real(wp) :: force(2)
+    associate (n => rows%normal(:, a), r => rows%r(:, a))
+      force = n*r(1) + [-n(2), n(1)]*r(2)
+    end associate
+  end function row_force
+
+  !> f = f + factor H' r of row a.
+  pure subroutine add_row_force(rows, a, factor, column, f)
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a, column(:)
+    real(wp), intent(in) :: factor
+    real(wp), intent(inout) :: f(:, :)
+    real(wp) :: force(2)
+    integer :: k
+    force = factor*row_force(rows, a)
+    do k = rows%first(a), rows%first(a + 1) - 1
+      f(:, column(k)) = f(:, column(k)) + rows%weight(k)*force
+    end do
+  end subroutine add_row_force
+
+  !> A row of H, component 1 (normal) or 2 (tangential) of row a: dofs of the interface and
+  !> their weights, of the first n.
+  pure subroutine row_of_h(rows, a, component, dof, weight, n)
+    type(rows_t), intent(in) :: rows
+    integer, intent(in) :: a, component
+    integer, intent(inout) :: dof(:)
+    real(wp), intent(inout) :: weight(:)
+    integer, intent(out) :: n
+    real(wp) :: e(2)
+    integer :: k
+    e = rows%normal(:, a)
+    if (component == 2) e = [-rows%normal(2, a), rows%normal(1, a)]
+    n = 0
+    do k = rows%first(a), rows%first(a + 1) - 1
+      if (.not. abs(rows%weight(k)) > zero) cycle
+      dof(n + 1:n + 2) = [2*rows%slot(k) - 1, 2*rows%slot(k)]
+      weight(n + 1:n + 2) = rows%weight(k)*e
+      n = n + 2
+    end do
+  end subroutine row_of_h
+
+end module contact_rows
