@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Sorting and searching of integers.
+!> Sorting and searching.
 module base_sort
+  use base_kinds, only: wp
   implicit none
   private
-  public :: sort_order, find_sorted, sort_integers
+  public :: sort_order, sort_order_real, find_sorted, sort_integers
 
 contains
 
@@ -51,6 +52,33 @@ contains
       end if
     end do
   end subroutine merge_runs
+
+  !> order such that key(order) does not decrease; stable (merge sort).
+  pure subroutine sort_order_real(key, order)
+    real(wp), intent(in) :: key(:)
+    integer, intent(out) :: order(:)
+    integer :: other(size(key)), width, first, middle, last, i, j, k
+    logical :: left
+    order = [(k, k=1, size(key))]
+    width = 1
+    do while (width < size(key))
+      do first = 1, size(key), 2*width
+        middle = min(first + width, size(key) + 1)
+        last = min(first + 2*width, size(key) + 1)
+        i = first
+        j = middle
+        do k = first, last - 1
+          left = j >= last
+          if (.not. left .and. i < middle) left = key(order(i)) <= key(order(j))
+          other(k) = order(merge(i, j, left))
+          i = merge(i + 1, i, left)
+          j = merge(j, j + 1, left)
+        end do
+      end do
+      order = other
+      width = 2*width
+    end do
+  end subroutine sort_order_real
 
   !> Sorts a short list in place (insertion sort: the lists are rows of a sparse graph).
   pure subroutine sort_integers(list)

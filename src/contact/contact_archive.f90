@@ -6,8 +6,9 @@ module contact_archive
   use base_kinds, only: wp
   use cone_types, only: certificate_t
   use contact_condense, only: size_schur_inverse
-  use contact_rows, only: rows_t, start_rows
-  use contact_types, only: contact_t, pair_t, candidate_t, node_forces_t, pair_sums_t, tally_t
+  use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
+  use contact_rows, only: rows_t, start_rows, row_kinds
+  use contact_types, only: contact_t, tally_t
   implicit none
   private
   public :: exchange_contact
@@ -21,67 +22,37 @@ contains
     type(contact_t), intent(inout) :: contact
     integer :: counts(5)
     integer :: p
-    counts = [contact%candidates, contact%last_candidates, size(contact%interface_node), &
-        merge(1, 0, contact%alternates), contact%solves_without_contact]
+    counts = [size(contact%interface_node), merge(1, 0, contact%alternates), &
+        contact%solves_without_contact, contact%listed, contact%idle_steps]
     call archive%exchange('contact.counts', counts)
-    if (archive%mode == archive_restore) call size_lists(contact, counts)
-    contact%alternates = counts(4) == 1
-    contact%solves_without_contact = counts(5)
+    contact%alternates = counts(2) == 1
+    contact%solves_without_contact = counts(3)
+    contact%listed = counts(4)
+    contact%idle_steps = counts(5)
+    if (archive%mode == archive_restore) call size_interface(contact, counts(1))
     call archive%exchange('contact.interface', contact%interface_node)
     call archive%exchange('contact.slot', contact%slot)
-    call exchange_candidates(archive, 'contact.candidates', &
-        contact%candidate(:contact%candidates))
-    call exchange_candidates(archive, 'contact.last_list', &
-        contact%last_list(:contact%last_candidates))
+    call archive%exchange('contact.acts', contact%acts)
     call exchange_rows(archive, contact%rows)
     if (contact%keeps_before) call exchange_rows(archive, contact%before)
     call exchange_tally(archive, contact%tally)
-    do p = 1, size(contact%pair)
-      call exchange_pair(archive, contact%pair(p))
+    do p = 1, size(contact%pairing)
+      call exchange_pairing(archive, contact%pairing(p)%item)
     end do
     if (archive%mode == archive_restore) contact%w_is_current = .false.
   end subroutine exchange_contact
 
-  !> Lists of the sizes in the archive.
-  subroutine size_lists(contact, counts)
+  !> Storage for an interface of n nodes and the lists that go with it.
+  subroutine size_interface(contact, n)
     type(contact_t), intent(inout) :: contact
-    integer, intent(in) :: counts(:)
-    contact%candidates = counts(1)
-    contact%last_candidates = counts(2)
-    if (size(contact%candidate) < contact%candidates) then
-      deallocate (contact%candidate)
-      allocate (contact%candidate(2*contact%candidates))
-    end if
-    if (size(contact%last_list) < contact%last_candidates) then
-      deallocate (contact%last_list)
-      allocate (contact%last_list(2*contact%last_candidates))
-    end if
-    if (size(contact%interface_node) == counts(3)) return
+    integer, intent(in) :: n
+    if (allocated(contact%late)) deallocate (contact%late)
+    allocate (contact%late(4*contact%listed + 8))
+    if (size(contact%interface_node) == n) return
     deallocate (contact%interface_node)
-    allocate (contact%interface_node(counts(3)))
+    allocate (contact%interface_node(n))
     call size_schur_inverse(contact)
-  end subroutine size_lists
-
-  !> One column a candidate; indices and flags are exact as reals.
-  subroutine exchange_candidates(archive, name, list)
-    type(archive_t), intent(inout) :: archive
-    character(*), intent(in) :: name
-    type(candidate_t), intent(inout) :: list(:)
-    real(wp) :: table(7, size(list))
-    integer :: k
-    do k = 1, size(list)
-      associate (c => list(k))
-        table(:, k) = [real([c%pair, c%node, c%edge, merge(1, 0, c%valid)], wp), c%xi, c%normal]
-      end associate
-    end do
-    call archive%exchange(name, table)
-    do k = 1, size(list)
-      associate (n => nint(table(1:4, k)), v => table(5:, k))
-        list(k) = candidate_t(pair=n(1), node=n(2), edge=n(3), valid=n(4) == 1, xi=v(1), &
-            normal=v(2:3))
-      end associate
-    end do
-  end subroutine exchange_candidates
+  end subroutine size_interface
 
   !> A list of rows with its reactions.
   subroutine exchange_rows(archive, rows)
@@ -96,13 +67,16 @@ contains
     points = rows%first(n + 1) - 1
     call archive%exchange('rows.point', rows%point(:points))
     call archive%exchange('rows.weight', rows%weight(:points))
-    call archive%exchange('rows.pair', rows%key(1, :n))
-    call archive%exchange('rows.node', rows%key(2, :n))
-    call archive%exchange('rows.edge', rows%key(3, :n))
+    call archive%exchange('rows.pairing', rows%key(1, :n))
+    call archive%exchange('rows.side', rows%key(2, :n))
+    call archive%exchange('rows.node', rows%key(3, :n))
+    call archive%exchange('rows.edge', rows%key(4, :n))
+    call archive%exchange('rows.kind', rows%kind(:n))
     call archive%exchange('rows.status', rows%status(:n))
     call archive%exchange('rows.is_rigid', rows%is_rigid(:n))
     call archive%exchange('rows.gap', rows%gap(:n))
     call archive%exchange('rows.offset', rows%offset(:n))
+    call archive%exchange('rows.allowance', rows%allowance(:n))
     call archive%exchange('rows.mu', rows%mu(:n))
     call archive%exchange('rows.length', rows%length(:n))
     call archive%exchange('rows.normal', rows%normal(:, :n))
@@ -115,10 +89,12 @@ contains
   subroutine exchange_tally(archive, tally)
     type(archive_t), intent(inout) :: archive
     type(tally_t), intent(inout) :: tally
-    integer :: counts(9)
+    integer :: counts(16 + row_kinds)
+    real(wp) :: overlap(2)
     counts = [tally%searches, tally%w_builds, tally%interface_changes, tally%solves, &
         tally%sweeps, tally%sweeps_since_row, tally%solves_since_row, tally%wedged, &
-        tally%wedged_node]
+        tally%wedged_node, tally%allowances, tally%late_rows, tally%new_frames, tally%repeats, &
+        tally%redone, tally%overlap_node, tally%overlap_step, tally%rows]
     call archive%exchange('tally.counts', counts)
     tally%searches = counts(1)
     tally%w_builds = counts(2)
@@ -129,7 +105,18 @@ contains
     tally%solves_since_row = counts(7)
     tally%wedged = counts(8)
     tally%wedged_node = counts(9)
-    call archive%exchange('tally.penetration', tally%worst_penetration)
+    tally%allowances = counts(10)
+    tally%late_rows = counts(11)
+    tally%new_frames = counts(12)
+    tally%repeats = counts(13)
+    tally%redone = counts(14)
+    tally%overlap_node = counts(15)
+    tally%overlap_step = counts(16)
+    tally%rows = counts(17:)
+    overlap = [tally%overlap, tally%overlap_share]
+    call archive%exchange('tally.overlap', overlap)
+    tally%overlap = overlap(1)
+    tally%overlap_share = overlap(2)
     call exchange_certificate(archive, 'tally.worst', tally%worst)
     call exchange_certificate(archive, 'tally.worst_row', tally%worst_since_row)
   end subroutine exchange_tally
@@ -148,28 +135,37 @@ contains
     certificate%met = values(4) > 0.5_wp
   end subroutine exchange_certificate
 
-  subroutine exchange_pair(archive, pair)
+  subroutine exchange_pairing(archive, pairing)
     type(archive_t), intent(inout) :: archive
-    type(pair_t), intent(inout) :: pair
-    real(wp) :: values(3)
-    logical :: searched
-    searched = allocated(pair%contactor_reference)
-    call archive%exchange('pair.searched', searched)
-    if (searched .and. .not. allocated(pair%contactor_reference)) &
-        allocate (pair%contactor_reference(2, size(pair%contactor%node)), &
-        pair%obstacle_reference(2, size(pair%obstacle%node)))
-    if (.not. searched .and. allocated(pair%contactor_reference)) &
-        deallocate (pair%contactor_reference, pair%obstacle_reference)
-    if (searched) call archive%exchange('pair.contactor', pair%contactor_reference)
-    if (searched) call archive%exchange('pair.obstacle', pair%obstacle_reference)
-    values = [pair%safe_distance, pair%moved, pair%remaining_margin]
-    call archive%exchange('pair.search', values)
-    pair%safe_distance = values(1)
-    pair%moved = values(2)
-    pair%remaining_margin = values(3)
-    call exchange_sums(archive, pair%sums)
-    if (allocated(pair%nodal)) call exchange_nodal(archive, pair%nodal)
-  end subroutine exchange_pair
+    class(pairing_t), intent(inout) :: pairing
+    real(wp) :: values(8)
+    integer :: counts(2)
+    counts = [merge(1, 0, pairing%is_born), pairing%purse%short_steps]
+    call archive%exchange('pairing.counts', counts)
+    pairing%is_born = counts(1) == 1
+    pairing%purse%short_steps = counts(2)
+    values = [pairing%safe_distance, pairing%moved, pairing%remaining_margin, &
+        pairing%accepted_overlap, pairing%purse%balance, pairing%purse%spent, &
+        pairing%purse%wanted, pairing%purse%beta]
+    call archive%exchange('pairing.values', values)
+    pairing%safe_distance = values(1)
+    pairing%moved = values(2)
+    pairing%remaining_margin = values(3)
+    pairing%accepted_overlap = values(4)
+    pairing%purse%balance = values(5)
+    pairing%purse%spent = values(6)
+    pairing%purse%wanted = values(7)
+    pairing%purse%beta = values(8)
+    if (pairing%is_born) then
+      if (.not. allocated(pairing%reference_1)) allocate (pairing%reference_1(2, &
+          size(pairing%side(1)%node)), pairing%reference_2(2, size(pairing%side(2)%node)))
+      call archive%exchange('pairing.reference_1', pairing%reference_1)
+      call archive%exchange('pairing.reference_2', pairing%reference_2)
+    end if
+    call pairing%exchange(archive)
+    call exchange_sums(archive, pairing%sums)
+    if (allocated(pairing%nodal)) call exchange_nodal(archive, pairing%nodal)
+  end subroutine exchange_pairing
 
   subroutine exchange_sums(archive, sums)
     type(archive_t), intent(inout) :: archive
@@ -199,6 +195,7 @@ contains
     call archive%exchange('nodal.force', nodal%force)
     call archive%exchange('nodal.before', nodal%before)
     call archive%exchange('nodal.normal', nodal%normal)
+    call archive%exchange('nodal.area', nodal%area)
     call archive%exchange('nodal.gap', nodal%gap)
     call archive%exchange('nodal.slip', nodal%slip)
     call archive%exchange('nodal.status', nodal%status)

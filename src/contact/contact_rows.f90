@@ -12,7 +12,9 @@ module contact_rows
 
   type, public :: rows_t
     integer :: n = 0
-    integer, allocatable :: key(:, :)      !< (3, n) pair, contactor node, edge
+    !> (4, n) pairing, side of the contactor node, the node, edge (< 0: vertex)
+    integer, allocatable :: key(:, :)
+    integer, allocatable :: kind(:)        !< row_...
     integer, allocatable :: first(:)       !< (n + 1) first point of a row
     integer, allocatable :: point(:)       !< nodes, contactor first
     integer, allocatable :: slot(:)        !< the same among the interface nodes
@@ -20,6 +22,7 @@ module contact_rows
     real(wp), allocatable :: normal(:, :)  !< (2, n)
     real(wp), allocatable :: gap(:)        !< at the start of the step [L]
     real(wp), allocatable :: offset(:)     !< c of u_n [L]
+    real(wp), allocatable :: allowance(:)  !< the gap may be this far below zero [L]
     real(wp), allocatable :: mu(:)
     real(wp), allocatable :: length(:)     !< of the edge [L]
     logical, allocatable :: is_rigid(:)    !< both sides constrained: W_nn = 0, only watched
@@ -28,8 +31,14 @@ module contact_rows
     integer, allocatable :: status(:)
   end type rows_t
 
-  public :: start_rows, add_row, swap_rows, same_geometry, carry_reactions, find_slots, &
-      relative_displacement, row_force, add_row_force, row_of_h
+  !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall; late
+  !> rows come when the solved step has shown that they are missing.
+  integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
+      row_kinds = 4
+
+  public :: start_rows, add_row, copy_row, copy_rows, swap_rows, same_geometry, carry_reactions, &
+      take_reactions, comes_before, find_slots, relative_displacement, row_force, &
+      add_row_force, row_of_h
 
 contains
 
@@ -49,7 +58,7 @@ contains
   pure subroutine size_rows(rows, n)
     type(rows_t), intent(inout) :: rows
     integer, intent(in) :: n
-    call size_integers(rows%key, 3, n)
+    call size_integers(rows%key, 4, n)
     call size_reals(rows%normal, 2, n)
     call size_reals(rows%r, 2, n)
     call size_reals(rows%r_previous, 2, n)
@@ -58,12 +67,14 @@ contains
     call size_real(rows%weight, 3*n)
     call size_real(rows%gap, n)
     call size_real(rows%offset, n)
+    call size_real(rows%allowance, n)
     call size_real(rows%mu, n)
     call size_real(rows%length, n)
     call size_integer(rows%first, n + 1)
     call size_integer(rows%point, 3*n)
     call size_integer(rows%slot, 3*n)
     call size_integer(rows%status, n)
+    call size_integer(rows%kind, n)
     if (allocated(rows%is_rigid)) deallocate (rows%is_rigid)
     allocate (rows%is_rigid(n))
     rows%is_rigid = .false.
@@ -109,11 +120,12 @@ contains
     call move_alloc(longer, a)
   end subroutine size_integer
 
-  !> Adds a row: key, points and weights, normal, gap [L], mu, edge length [L]; no reaction yet.
-  pure subroutine add_row(rows, key, point, weight, normal, gap, mu, length)
+  !> Adds a row: key, points and weights, normal, gap [L], mu, edge length [L], kind, allowance
+  !> [L]; no reaction yet.
+  pure subroutine add_row(rows, key, point, weight, normal, gap, mu, length, kind, allowance)
     type(rows_t), intent(inout) :: rows
-    integer, intent(in) :: key(3), point(:)
-    real(wp), intent(in) :: weight(:), normal(2), gap, mu, length
+    integer, intent(in) :: key(4), point(:), kind
+    real(wp), intent(in) :: weight(:), normal(2), gap, mu, length, allowance
     integer :: k
     if (rows%n == size(rows%gap)) call size_rows(rows, 2*rows%n)
     rows%n = rows%n + 1
@@ -126,7 +138,9 @@ contains
       end do
       rows%normal(:, a) = normal
       rows%gap(a) = gap
-      rows%offset(a) = gap
+      rows%offset(a) = gap + allowance
+      rows%allowance(a) = allowance
+      rows%kind(a) = kind
       rows%mu(a) = mu
       rows%length(a) = length
       rows%is_rigid(a) = .false.
@@ -166,30 +180,101 @@ contains
     end do
   end function same_geometry
 
-  !> Reactions of rows that were on the old list; both lists are in the same order of their
-  !> pairs and nodes.
+  !> Reactions of rows that were on the old list, by pairing, side, node and edge; a row that is
+  !> new on its node takes those of the old row there whose normal is nearest, as vectors. Both
+  !> lists are in the same order of pairings, sides and nodes.
   pure subroutine carry_reactions(old, rows)
     type(rows_t), intent(in) :: old
     type(rows_t), intent(inout) :: rows
-    integer :: a, b
+    integer :: a, b, k, best
     b = 1
     do a = 1, rows%n
-      do while (b < old%n .and. before(old%key(1:2, b), rows%key(1:2, a)))
+      do while (b <= old%n)
+        if (.not. comes_before(old%key(1:3, b), rows%key(1:3, a))) exit
         b = b + 1
       end do
       if (b > old%n) return
-      if (any(old%key(1:2, b) /= rows%key(1:2, a))) cycle
-      rows%r(:, a) = old%r(:, b)
-      rows%r_previous(:, a) = old%r_previous(:, b)
-      rows%r_older(:, a) = old%r_older(:, b)
-      rows%status(a) = old%status(b)
+      best = 0
+      do k = b, old%n
+        if (any(old%key(1:3, k) /= rows%key(1:3, a))) exit
+        if (old%key(4, k) == rows%key(4, a)) then
+          best = k
+          exit
+        end if
+        if (dot_product(old%normal(:, k), rows%normal(:, a)) > 0.9_wp) best = k
+      end do
+      if (best > 0) call take_reactions(old, best, rows, a)
     end do
   end subroutine carry_reactions
 
-  pure logical function before(a, b)
-    integer, intent(in) :: a(2), b(2)
-    before = a(1) < b(1) .or. (a(1) == b(1) .and. a(2) < b(2))
-  end function before
+  !> Reactions of row b of old to row a, turned into its frame.
+  pure subroutine take_reactions(old, b, rows, a)
+    type(rows_t), intent(in) :: old
+    integer, intent(in) :: b, a
+    type(rows_t), intent(inout) :: rows
+    real(wp) :: c, s
+    rows%status(a) = old%status(b)
+    rows%r(:, a) = old%r(:, b)
+    rows%r_previous(:, a) = old%r_previous(:, b)
+    rows%r_older(:, a) = old%r_older(:, b)
+    associate (n => rows%normal(:, a), m => old%normal(:, b))
+      if (.not. any(abs(n - m) > zero)) return
+      c = n(1)*m(1) + n(2)*m(2)
+      s = n(1)*m(2) - n(2)*m(1)
+    end associate
+    rows%r(:, a) = turned(c, s, rows%r(:, a))
+    rows%r_previous(:, a) = turned(c, s, rows%r_previous(:, a))
+    rows%r_older(:, a) = turned(c, s, rows%r_older(:, a))
+  end subroutine take_reactions
+
+  pure function turned(c, s, r) result(q)
+    real(wp), intent(in) :: c, s, r(2)
+    real(wp) :: q(2)
+    q = [c*r(1) - s*r(2), s*r(1) + c*r(2)]
+  end function turned
+
+  !> Adds row b of another list with its reactions.
+  pure subroutine copy_row(from, b, rows)
+    type(rows_t), intent(in) :: from
+    integer, intent(in) :: b
+    type(rows_t), intent(inout) :: rows
+    associate (p => from%point(from%first(b):from%first(b + 1) - 1), &
+        w => from%weight(from%first(b):from%first(b + 1) - 1))
+      call add_row(rows, from%key(:, b), p, w, from%normal(:, b), from%gap(b), from%mu(b), &
+          from%length(b), from%kind(b), from%allowance(b))
+    end associate
+    associate (a => rows%n)
+      rows%offset(a) = from%offset(b)
+      rows%is_rigid(a) = from%is_rigid(b)
+      rows%r(:, a) = from%r(:, b)
+      rows%r_previous(:, a) = from%r_previous(:, b)
+      rows%r_older(:, a) = from%r_older(:, b)
+      rows%u(:, a) = from%u(:, b)
+      rows%status(a) = from%status(b)
+    end associate
+  end subroutine copy_row
+
+  !> A copy of a list, in the storage that is there.
+  pure subroutine copy_rows(from, rows)
+    type(rows_t), intent(in) :: from
+    type(rows_t), intent(inout) :: rows
+    integer :: a
+    call start_rows(rows)
+    do a = 1, from%n
+      call copy_row(from, a, rows)
+    end do
+  end subroutine copy_rows
+
+  pure logical function comes_before(a, b)
+    integer, intent(in) :: a(:), b(:)
+    integer :: k
+    comes_before = .false.
+    do k = 1, size(a)
+      if (a(k) == b(k)) cycle
+      comes_before = a(k) < b(k)
+      return
+    end do
+  end function comes_before
 
   !> Places of the points among the interface nodes; slot (nodes of the model).
   pure subroutine find_slots(slot, rows)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact of one stage of a step, for every scheme: from the free motion of the block to the
+!> Contact of one stage of a step, for every scheme: from the free motion of the interface to the
 !> reactions. It does not know the scheme: the stage has said what the motion means.
 module contact_stage
   use base_kinds, only: wp, zero, half, one
@@ -9,25 +9,85 @@ module contact_stage
   use cone_gauss_seidel, only: solve_cone
   use cone_local, only: may_wedge
   use cone_types, only: certificate_t, contact_open, size_cone_work
-  use contact_rows, only: relative_displacement, add_row_force
+  use contact_assemble, only: find_rows, add_missing_rows, count_rows
+  use contact_condense, only: build_w
+  use contact_monitor, only: check_listed
+  use contact_purse, only: start_purses, set_offsets, purse_is_short
+  use contact_rows, only: rows_t, relative_displacement, add_row_force
   use contact_types, only: contact_t
   use model_data, only: model_t
   implicit none
   private
   public :: solve_contact, correct_contact, settle_contact
 
+  !> Most rounds of a step: each adds rows that the one before has shown to be missing.
+  integer, parameter :: most_rounds = 12
+
 contains
 
-  !> Reactions for the free motion x_free (2, m) of the interface; force (2, m) = H' r. acting
-  !> is false when nothing touches, and then force is zero.
-  subroutine solve_contact(model, contact, x_free, force, acting, status)
+  !> Reactions for the free motion x_free (2, m) of the interface from displacement u (2, nodes)
+  !> at the start of the step; force (2, m) = H' r. largest [F L]: of the terms of the energy
+  !> ledger so far. acting is false when nothing touches, and then force is zero.
+  subroutine solve_contact(model, contact, u, x_free, largest, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: x_free(:, :)
+    real(wp), intent(in) :: u(:, :), x_free(:, :), largest
     real(wp), intent(out) :: force(:, :)
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
+    integer :: round
+    logical :: is_complete
+    force = zero
+    acting = .false.
+    contact%idle_steps = 0
+    call find_rows(model, contact, u, x_free)
+    call shift_reactions(contact)
+    if (contact%rows%n + contact%spare%n == 0) return
+    call start_purses(contact)
+    do round = 1, most_rounds
+      call solve_rows(model, contact, x_free, largest, round, force, acting, status)
+      if (failed(status)) return
+      call add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
+      if (is_complete) exit
+    end do
+    if (acting) call count_rows(contact)
+  end subroutine solve_contact
+
+  !> The rows as they are: W, q, reactions; again with smaller offsets where a purse is short.
+  subroutine solve_rows(model, contact, x_free, largest, round, force, acting, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: x_free(:, :), largest
+    integer, intent(in) :: round
+    real(wp), intent(inout) :: force(:, :)
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
+    integer, parameter :: most_attempts = 3
+    integer :: attempt
+    call build_w(contact)
+    do attempt = 1, most_attempts
+      call set_offsets(contact)
+      call find_q(contact, x_free)
+      force = zero
+      if (contact%n == 0) return
+      if (.not. acting .and. all(contact%q(1, :) >= zero)) return
+      acting = .true.
+      call start_reactions(contact, round == 1 .and. attempt == 1)
+      call find_reactions(model, contact, force, certificate, status)
+      if (round == 1 .and. attempt == 1) call watch_alternation(contact)
+      contact%tally%solves = contact%tally%solves + 1
+      contact%tally%solves_since_row = contact%tally%solves_since_row + 1
+      if (failed(status)) return
+      if (.not. purse_is_short(contact, largest)) exit
+      contact%tally%repeats = contact%tally%repeats + 1
+    end do
+  end subroutine solve_rows
+
+  !> q = H x_free + (c, 0).
+  pure subroutine find_q(contact, x_free)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: x_free(:, :)
     real(wp) :: u(2)
     integer :: k
     do k = 1, contact%n
@@ -35,40 +95,37 @@ contains
       contact%q(1, k) = contact%rows%offset(contact%row_of(k)) + u(1)
       if (contact%d > 1) contact%q(2, k) = u(2)
     end do
-    force = zero
-    acting = .false.
-    call shift_reactions(contact)
-    if (contact%n == 0) return
-    if (all(contact%q(1, :) >= zero)) return
-    acting = .true.
-    call start_reactions(contact)
-    call find_reactions(model, contact, force, certificate, status)
-    call watch_alternation(contact)
-    contact%tally%solves = contact%tally%solves + 1
-    contact%tally%solves_since_row = contact%tally%solves_since_row + 1
-  end subroutine solve_contact
+  end subroutine find_q
 
   !> Shifts the reaction history. After three solves without any there is nothing to shift.
   pure subroutine shift_reactions(contact)
     type(contact_t), intent(inout) :: contact
-    integer :: n
     if (contact%solves_without_contact == 3) return
     contact%solves_without_contact = contact%solves_without_contact + 1
-    n = contact%rows%n
-    associate (rows => contact%rows)
+    call shift(contact%rows)
+    if (contact%spare%n > 0) call shift(contact%spare)
+  end subroutine shift_reactions
+
+  pure subroutine shift(rows)
+    type(rows_t), intent(inout) :: rows
+    associate (n => rows%n)
       rows%r_older(:, :n) = rows%r_previous(:, :n)
       rows%r_previous(:, :n) = rows%r(:, :n)
       rows%r(:, :n) = zero
       rows%status(:n) = contact_open
     end associate
-  end subroutine shift_reactions
+  end subroutine shift
 
-  !> The start: the last reactions, or those before them where forces alternate.
-  pure subroutine start_reactions(contact)
+  !> The start: in the first solve of a step the last reactions, or those before them where forces
+  !> alternate; then those of the solve before.
+  pure subroutine start_reactions(contact, is_first)
     type(contact_t), intent(inout) :: contact
+    logical, intent(in) :: is_first
     integer :: k
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
+        contact%r(:, k) = rows%r(1:contact%d, a)
+        if (.not. is_first) cycle
         contact%r(:, k) = rows%r_previous(1:contact%d, a)
         if (contact%alternates) contact%r(:, k) = rows%r_older(1:contact%d, a)
       end associate
@@ -103,7 +160,7 @@ contains
     call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
         certificate, status)
     if (certificate%worst > 0) call add_place(status, 'node '// &
-        to_text(model%node_id(contact%rows%key(2, contact%row_of(certificate%worst)))))
+        to_text(model%node_id(contact%rows%key(3, contact%row_of(certificate%worst)))))
     call keep_worst(certificate, contact%tally%worst)
     call keep_worst(certificate, contact%tally%worst_since_row)
     contact%tally%sweeps = contact%tally%sweeps + certificate%sweeps
@@ -127,7 +184,7 @@ contains
       if (.not. contact%r(1, k) > zero) cycle
       if (.not. may_wedge(contact%w(2*k - 1:2*k, 2*k - 1:2*k), contact%mu(k))) cycle
       if (contact%tally%wedged == 0) &
-          contact%tally%wedged_node = contact%rows%key(2, contact%row_of(k))
+          contact%tally%wedged_node = contact%rows%key(3, contact%row_of(k))
       contact%tally%wedged = contact%tally%wedged + 1
     end do
   end subroutine count_wedging
@@ -203,14 +260,14 @@ contains
     gap_noise = 8.0_wp*epsilon(terms)*sqrt(terms)
   end function gap_noise
 
-  !> After the step: u of every row for the motion du, the certificate of the reactions for it
-  !> (to the round-off of gaps and motions, which nearly cancel at a touch), penetration. Fails
-  !> on what a scene must not do in silence: penetration beyond the tolerance, prescribed motions
-  !> that overlap.
-  subroutine settle_contact(model, contact, du, acting, status)
+  !> After the step of motion du to displacement u (2, nodes): u of every row, the certificate of
+  !> the reactions for it (to the round-off of gaps and motions, which nearly cancel at a touch),
+  !> true overlaps. Fails on what a scene must not do in silence.
+  subroutine settle_contact(model, contact, u, du, cycle, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(in) :: u(:, :), du(:, :)
+    integer, intent(in) :: cycle
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
@@ -219,15 +276,12 @@ contains
     call find_displacements(contact, du)
     associate (rows => contact%rows)
       do a = 1, rows%n
-        depth = max(zero, -rows%u(1, a))
-        associate (sums => contact%pair(rows%key(1, a))%sums)
-          sums%penetration = max(sums%penetration, depth)
-        end associate
-        contact%tally%worst_penetration = &
-            max(contact%tally%worst_penetration, depth/rows%length(a))
+        depth = -rows%u(1, a)
+        if (rows%is_rigid(a)) depth = depth + rows%offset(a) - rows%gap(a) - rows%allowance(a)
         if (depth > contact%penetration_tolerance*rows%length(a)) &
-            call fail_penetration(model, rows%key(2, a), depth, rows%is_rigid(a), status)
+            call fail_penetration(model, rows%key(3, a), depth, rows%is_rigid(a), status)
       end do
+      if (contact%listed > 0) call check_listed(model, contact, u, cycle, status)
       if (.not. acting) return
       do k = 1, contact%n
         contact%work%u(:, k) = rows%u(1:contact%d, contact%row_of(k))

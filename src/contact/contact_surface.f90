@@ -1,16 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The boundary of bodies as edges: the edges that belong to one element only, with the body on
-!> their left, so that the outward normal is on their right.
+!> their left, so that the outward normal is on their right. A side of a contact is a part of
+!> that boundary; the turn of the boundary at a node is that of the whole.
 module contact_surface
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one, half
   use base_sort, only: sort_order
   use model_data, only: model_t, corner_count, side_part_set, side_node_set, side_part, &
-      side_segment_set, side_all_nodes
+      side_segment_set, side_all_nodes, side_parts
   implicit none
   private
 
   type, public :: surface_t
-    integer, allocatable :: node(:)        !< nodes of the surface
+    integer, allocatable :: node(:)        !< nodes of the surface, increasing
+    integer, allocatable :: index(:)       !< (nodes of the model) row in node, 0 = not in it
     integer, allocatable :: end_node(:, :) !< (2, edges) first and second node of each edge
     real(wp), allocatable :: length(:)     !< [L] reference length
     real(wp), allocatable :: normal(:, :)  !< (2, edges) outward, reference geometry
@@ -18,39 +20,52 @@ module contact_surface
     integer, allocatable :: neighbour(:, :)
     !> (2, nodes) edges that end and start at a node, 0 = none
     integer, allocatable :: node_edge(:, :)
+    !> (2, nodes) nodes before and after along the whole boundary; 0: not a node of a boundary
+    integer, allocatable :: chain(:, :)
+    real(wp), allocatable :: chain_length(:, :)  !< (2, nodes) of the edges between [L]
+    real(wp), allocatable :: turn(:)       !< (nodes) from the normal before to that after
+    integer, allocatable :: part(:)        !< (edges) rows of their parts
+    integer, allocatable :: part_id(:)     !< (edges)
+    integer, allocatable :: body(:)        !< (edges) bodies are numbered by their first node
+    logical :: is_closed = .false.         !< every edge has both neighbours
     real(wp) :: mean_length = zero
+    real(wp) :: shortest = huge(one)       !< edge [L]
   end type surface_t
 
-  public :: make_surface, edge_tangent, facing
-
-  !> An edge faces another when their normals are opposite by at least this cosine (3 degrees
-  !> off a right angle): only facing boundaries can meet from outside.
-  real(wp), parameter :: facing_cosine = -0.05_wp
+  public :: make_surface, edge_tangent, turn_between
 
 contains
 
   !> Surface of a side of a contact card: the exposed edges of parts, those whose nodes are all
-  !> in a node set, or the edges of a segment set. Lone nodes of a node set belong to it too.
-  subroutine make_surface(model, kind, row, surface)
+  !> in a node set, or the edges of a segment set; of parts that are listed, with kind
+  !> side_parts. Lone nodes of a node set belong to it too.
+  subroutine make_surface(model, kind, row, surface, parts)
     type(model_t), intent(in) :: model
     integer, intent(in) :: kind, row
     type(surface_t), intent(out) :: surface
+    integer, intent(in), optional :: parts(:)
     logical, allocatable :: part_in(:), node_in(:)
-    integer, allocatable :: edge(:, :)
+    integer, allocatable :: boundary(:, :), part(:), edge(:, :)
+    logical, allocatable :: is_listed(:)
     integer :: k
     allocate (part_in(size(model%part)), node_in(model%nodes))
-    part_in = kind == side_node_set .or. kind == side_segment_set .or. kind == side_all_nodes
+    part_in = all(kind /= [side_part_set, side_part, side_parts])
+    if (present(parts)) part_in(parts) = .true.
     if (kind == side_part_set) part_in(model%part_set(row)%member) = .true.
     if (kind == side_part) part_in(row) = .true.
-    call exposed_edges(model, part_in, edge)
+    call exposed_edges(model, boundary, part)
+    is_listed = part_in(part)
     select case (kind)
     case (side_node_set)
       node_in = .false.
       node_in(model%node_set(row)%member) = .true.
-      edge = pack_columns(edge, [(all(node_in(edge(:, k))), k=1, size(edge, 2))])
+      is_listed = [(all(node_in(boundary(:, k))), k=1, size(boundary, 2))]
     case (side_segment_set)
-      edge = pack_columns(edge, in_segments(model%nodes, edge, model%segment_set(row)%node))
+      is_listed = in_segments(model%nodes, boundary, model%segment_set(row)%node)
     end select
+    edge = pack_columns(boundary, is_listed)
+    surface%part = pack(part, is_listed)
+    surface%part_id = model%part(surface%part)%id
     node_in = .false.
     do k = 1, size(edge, 2)
       node_in(edge(:, k)) = .true.
@@ -59,7 +74,12 @@ contains
     if (kind == side_all_nodes) node_in = .true.
     surface%node = pack([(k, k=1, model%nodes)], node_in)
     surface%end_node = edge
+    allocate (surface%index(model%nodes))
+    surface%index = 0
+    surface%index(surface%node) = [(k, k=1, size(surface%node))]
     call measure_edges(model, surface)
+    call follow_boundary(model, boundary, surface)
+    call find_bodies(model, surface)
   end subroutine make_surface
 
   !> Which edges are among the segments, in either direction.
@@ -91,22 +111,21 @@ contains
     kept(2, :) = pack(list(2, :), keep)
   end function pack_columns
 
-  !> Edges of the chosen parts that belong to exactly one of their elements.
-  subroutine exposed_edges(model, part_in, edge)
+  !> Edges that belong to exactly one element, and the parts of those elements.
+  subroutine exposed_edges(model, edge, part)
     type(model_t), intent(in) :: model
-    logical, intent(in) :: part_in(:)
-    integer, allocatable, intent(out) :: edge(:, :)
-    integer, allocatable :: all_edges(:, :), order(:)
+    integer, allocatable, intent(out) :: edge(:, :), part(:)
+    integer, allocatable :: all_edges(:, :), all_parts(:), order(:)
     logical, allocatable :: single(:)
     integer :: e, k, n, i, j, first, corners
-    allocate (all_edges(2, 4*model%elements))
+    allocate (all_edges(2, 4*model%elements), all_parts(4*model%elements))
     n = 0
     do e = 1, model%elements
-      if (.not. part_in(model%element_part(e))) cycle
       corners = corner_count(model%connectivity(:, e))
       do k = 1, corners
         n = n + 1
         all_edges(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, corners), e)]
+        all_parts(n) = model%element_part(e)
       end do
     end do
     allocate (order(n), single(n))
@@ -122,6 +141,7 @@ contains
       end do
     end do
     edge = pack_columns(all_edges(:, 1:n), single)
+    part = pack(all_parts(1:n), single)
   end subroutine exposed_edges
 
   subroutine measure_edges(model, surface)
@@ -144,10 +164,77 @@ contains
     end do
     surface%neighbour(1, :) = ends(surface%end_node(1, :))
     surface%neighbour(2, :) = starts(surface%end_node(2, :))
+    surface%is_closed = n > 0 .and. all(surface%neighbour > 0)
     surface%node_edge(1, :) = ends(surface%node)
     surface%node_edge(2, :) = starts(surface%node)
     if (n > 0) surface%mean_length = sum(surface%length)/real(n, wp)
+    if (n > 0) surface%shortest = minval(surface%length)
   end subroutine measure_edges
+
+  !> Neighbours of the nodes along the whole boundary, and the turn there.
+  subroutine follow_boundary(model, boundary, surface)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: boundary(:, :)
+    type(surface_t), intent(inout) :: surface
+    integer, allocatable :: before(:), after(:)
+    real(wp) :: n(2, 2)
+    integer :: k
+    allocate (before(model%nodes), after(model%nodes))
+    before = 0
+    after = 0
+    do k = 1, size(boundary, 2)
+      after(boundary(1, k)) = boundary(2, k)
+      before(boundary(2, k)) = boundary(1, k)
+    end do
+    allocate (surface%chain(2, size(surface%node)), surface%turn(size(surface%node)))
+    surface%chain(1, :) = before(surface%node)
+    surface%chain(2, :) = after(surface%node)
+    allocate (surface%chain_length(2, size(surface%node)))
+    surface%turn = zero
+    surface%chain_length = zero
+    do k = 1, size(surface%node)
+      if (any(surface%chain(:, k) == 0)) cycle
+      n(:, 1) = model%x(:, surface%node(k)) - model%x(:, surface%chain(1, k))
+      n(:, 2) = model%x(:, surface%chain(2, k)) - model%x(:, surface%node(k))
+      surface%turn(k) = turn_between(n(:, 1), n(:, 2))
+      surface%chain_length(:, k) = sqrt(sum(n**2, dim=1))
+    end do
+  end subroutine follow_boundary
+
+  !> Angle from direction a to direction b, in (-pi, pi].
+  pure real(wp) function turn_between(a, b)
+    real(wp), intent(in) :: a(2), b(2)
+    turn_between = atan2(a(1)*b(2) - a(2)*b(1), a(1)*b(1) + a(2)*b(2))
+  end function turn_between
+
+  !> The body of every edge: elements that share nodes belong together.
+  subroutine find_bodies(model, surface)
+    type(model_t), intent(in) :: model
+    type(surface_t), intent(inout) :: surface
+    integer, allocatable :: root(:)
+    integer :: e, k, a, b
+    allocate (root(model%nodes))
+    root = [(k, k=1, model%nodes)]
+    do e = 1, model%elements
+      do k = 2, 4
+        a = root_of(root, model%connectivity(1, e))
+        b = root_of(root, model%connectivity(k, e))
+        root(max(a, b)) = min(a, b)
+      end do
+    end do
+    allocate (surface%body(size(surface%length)))
+    do k = 1, size(surface%length)
+      surface%body(k) = root_of(root, surface%end_node(1, k))
+    end do
+  end subroutine find_bodies
+
+  pure integer function root_of(root, node)
+    integer, intent(in) :: root(:), node
+    root_of = node
+    do while (root(root_of) /= root_of)
+      root_of = root(root_of)
+    end do
+  end function root_of
 
   !> t = n turned by +90 degrees: along the edge.
   pure function edge_tangent(normal) result(t)
@@ -155,21 +242,5 @@ contains
     real(wp) :: t(2)
     t = [-normal(2), normal(1)]
   end function edge_tangent
-
-  !> True when node k of a surface has an edge that faces the normal of another body (a node
-  !> without edges, of a bare node set, faces everything).
-  pure logical function facing(surface, k, normal)
-    type(surface_t), intent(in) :: surface
-    integer, intent(in) :: k
-    real(wp), intent(in) :: normal(2)
-    integer :: s
-    facing = all(surface%node_edge(:, k) == 0)
-    do s = 1, 2
-      associate (edge => surface%node_edge(s, k))
-        if (edge == 0) cycle
-        if (dot_product(surface%normal(:, edge), normal) < facing_cosine) facing = .true.
-      end associate
-    end do
-  end function facing
 
 end module contact_surface

@@ -1,87 +1,175 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Rigid plane walls as obstacles: an analytic surface instead of edges, no degrees of freedom.
-!> A row at a wall has one point, the contactor's.
+!> The pairing of a rigid plane wall: an analytic surface instead of edges, no degrees of freedom.
+!> Its rows have one point, the node's.
 module contact_wall
+  use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
-  use base_status, only: status_t, fail, status_numerical, status_deck
-  use base_strings, only: to_text
-  use contact_rows, only: rows_t, add_row
-  use contact_surface, only: make_surface
-  use contact_types, only: contact_t, pair_t
-  use model_data, only: model_t, wall_t, side_node_set, side_all_nodes
+  use contact_near, only: near_t, exchange_near
+  use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap
+  use contact_rows, only: rows_t, add_row, row_wall
+  use model_data, only: model_t
   implicit none
   private
-  public :: make_wall, wall_distance, add_wall_row, check_wall, mark_wall_nodes
+
+  type, extends(pairing_t), public :: pairing_wall_t
+    real(wp) :: point(2) = zero         !< on it [L]
+    real(wp) :: normal(2) = zero        !< toward the bodies
+    type(near_t) :: near
+  contains
+    procedure :: list => wall_list
+    procedure :: mark_interface => wall_mark_interface
+    procedure :: mark_contact_nodes => wall_mark_contact_nodes
+    procedure :: append_rows => wall_append_rows
+    procedure :: find_late => wall_find_late
+    procedure :: measure => wall_measure
+    procedure :: measure_whole => wall_measure_whole
+    procedure :: exchange => wall_exchange
+  end type pairing_wall_t
 
 contains
 
-  !> The pair of a wall: its nodes against its plane.
-  subroutine make_wall(model, wall, pair)
-    type(model_t), intent(in) :: model
-    type(wall_t), intent(in) :: wall
-    type(pair_t), intent(inout) :: pair
-    pair%is_wall = .true.
-    pair%id = wall%id
-    pair%record = wall%record
-    pair%mu = wall%mu
-    pair%birth = wall%birth
-    pair%death = wall%death
-    pair%wall_point = wall%point
-    pair%wall_normal = wall%normal
-    pair%contactor_side = 1
-    call make_surface(model, merge(side_all_nodes, side_node_set, wall%node_set == 0), &
-        wall%node_set, pair%contactor)
-    allocate (pair%obstacle%node(0), pair%obstacle%length(0), pair%obstacle%end_node(2, 0))
-    allocate (pair%obstacle%normal(2, 0))
-  end subroutine make_wall
-
   !> Distance of a node in front of the wall [L], reference part and motion apart.
-  pure real(wp) function wall_distance(pair, x, u, node)
-    type(pair_t), intent(in) :: pair
+  pure real(wp) function wall_distance(this, x, u, node)
+    type(pairing_wall_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :), u(:, :)
     integer, intent(in) :: node
-    wall_distance = dot_product(pair%wall_normal, x(:, node) - pair%wall_point) &
-        + dot_product(pair%wall_normal, u(:, node))
+    wall_distance = dot_product(this%normal, x(:, node) - this%point) &
+        + dot_product(this%normal, u(:, node))
   end function wall_distance
 
-  !> Adds the row of a node at the wall.
-  pure subroutine add_wall_row(pair, p, x, u, node, rows)
-    type(pair_t), intent(in) :: pair
-    integer, intent(in) :: p, node
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    type(rows_t), intent(inout) :: rows
-    call add_row(rows, [p, node, 0], [node], [one], pair%wall_normal, &
-        wall_distance(pair, x, u, node), pair%mu, max(pair%contactor%mean_length, tiny(one)))
-  end subroutine add_wall_row
-
-  !> Fails when a node that was not watched stands behind the wall.
-  subroutine check_wall(model, contact, pair, node, gap, cycle, status)
+  !> The nodes nearer than half an edge, or four steps of their motion.
+  subroutine wall_list(this, model, u, reach)
+    class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    type(contact_t), intent(in) :: contact
-    type(pair_t), intent(in) :: pair
-    integer, intent(in) :: node, cycle
-    real(wp), intent(in) :: gap
-    type(status_t), intent(inout) :: status
-    if (-gap <= contact%penetration_tolerance*pair%contactor%mean_length) return
-    if (cycle == 0) then
-      call fail(status, status_deck, 'initial penetration: node '// &
-          to_text(model%node_id(node))//' is '//to_text(-gap)//' behind wall '// &
-          to_text(pair%id), hint='move the wall, or name the nodes in front of it (NSID)')
-    else
-      call fail(status, status_numerical, 'node '//to_text(model%node_id(node))// &
-          ' crossed wall '//to_text(pair%id)//' unseen within the step', hint='refine the step')
-    end if
-  end subroutine check_wall
+    real(wp), intent(in) :: u(:, :), reach
+    real(wp) :: near_enough, gap
+    integer :: k
+    near_enough = reach
+    if (.not. reach > this%side(1)%mean_length) near_enough = half*reach
+    this%safe_distance = huge(one)
+    this%listed = 0
+    if (allocated(this%near%node)) deallocate (this%near%node)
+    allocate (this%near%node(size(this%side(1)%node)))
+    do k = 1, size(this%side(1)%node)
+      gap = wall_distance(this, model%x, u, this%side(1)%node(k))
+      if (gap <= near_enough) then
+        this%listed = this%listed + 1
+        this%near%node(this%listed) = k
+      else
+        this%safe_distance = min(this%safe_distance, gap)
+      end if
+    end do
+    this%near%n = this%listed
+  end subroutine wall_list
+
+  subroutine wall_mark_interface(this, model, taken)
+    class(pairing_wall_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    logical, intent(inout) :: taken(:)
+    taken(this%side(1)%node(this%near%node(:this%near%n))) = .true.
+  end subroutine wall_mark_interface
 
   !> Nodes of the edges that face the wall.
-  pure subroutine mark_wall_nodes(pair, taken)
-    type(pair_t), intent(in) :: pair
+  subroutine wall_mark_contact_nodes(this, model, taken)
+    class(pairing_wall_t), intent(in) :: this
+    type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
     integer :: e
-    do e = 1, size(pair%contactor%length)
-      if (dot_product(pair%contactor%normal(:, e), pair%wall_normal) < -half) &
-          taken(pair%contactor%end_node(:, e)) = .true.
+    do e = 1, size(this%side(1)%length)
+      if (dot_product(this%side(1)%normal(:, e), this%normal) < -half) &
+          taken(this%side(1)%end_node(:, e)) = .true.
     end do
-  end subroutine mark_wall_nodes
+  end subroutine wall_mark_contact_nodes
+
+  subroutine wall_append_rows(this, model, u, free, rows, spare)
+    class(pairing_wall_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :), free(:, :)
+    type(rows_t), intent(inout) :: rows, spare
+    integer :: i
+    do i = 1, this%near%n
+      associate (node => this%side(1)%node(this%near%node(i)))
+        call add_row(rows, [this%number, 1, node, 0], [node], [one], this%normal, &
+            wall_distance(this, model%x, u, node), this%mu, edge_length(this), row_wall, zero)
+      end associate
+    end do
+  end subroutine wall_append_rows
+
+  pure real(wp) function edge_length(this)
+    type(pairing_wall_t), intent(in) :: this
+    edge_length = max(this%side(1)%mean_length, tiny(one))
+  end function edge_length
+
+  !> Every listed node has its row, and a plane does not turn.
+  subroutine wall_find_late(this, model, u0, u1, rows, late, n)
+    class(pairing_wall_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u0(:, :), u1(:, :)
+    type(rows_t), intent(in) :: rows
+    type(late_t), intent(inout) :: late(:)
+    integer, intent(inout) :: n
+  end subroutine wall_find_late
+
+  subroutine wall_measure(this, model, u, overlap)
+    class(pairing_wall_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    integer :: i
+    do i = 1, this%near%n
+      call measure_node(this, model, u, this%near%node(i), overlap)
+    end do
+  end subroutine wall_measure
+
+  subroutine measure_node(this, model, u, k, overlap)
+    type(pairing_wall_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :)
+    integer, intent(in) :: k
+    type(overlap_t), intent(inout) :: overlap
+    real(wp) :: gap, length
+    gap = wall_distance(this, model%x, u, this%side(1)%node(k))
+    this%sums%smallest_gap = min(this%sums%smallest_gap, gap)
+    if (allocated(this%nodal)) this%nodal%gap(this%nodal%first(1) + k) = gap
+    if (.not. gap < zero) return
+    length = edge_length(this)
+    if (all(this%side(1)%chain(:, k) > 0)) length = minval(this%side(1)%chain_length(:, k))
+    call note_overlap(overlap, -gap, length, this%side(1)%node(k), 0, .false.)
+  end subroutine measure_node
+
+  subroutine wall_measure_whole(this, model, u, overlap, accepted)
+    class(pairing_wall_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp), intent(out) :: accepted
+    real(wp) :: far, gap
+    integer :: k
+    far = zero
+    do k = 1, size(this%side(1)%node)
+      associate (node => this%side(1)%node(k))
+        gap = wall_distance(this, model%x, u, node)
+        far = max(far, sum((model%x(:, node) + u(:, node) - this%point)**2))
+        if (gap < zero) call note_overlap(overlap, -gap, edge_length(this), node, 0, .false.)
+      end associate
+    end do
+    accepted = min(1.0e-3_wp*edge_length(this), max(this%penetration_tolerance &
+        *edge_length(this), 1.0e-7_wp*sqrt(far)))
+  end subroutine wall_measure_whole
+
+  subroutine wall_exchange(this, archive)
+    class(pairing_wall_t), intent(inout) :: this
+    type(archive_t), intent(inout) :: archive
+    integer :: n
+    n = this%near%n
+    call archive%exchange('wall.n', n)
+    if (archive%mode == archive_restore) then
+      if (allocated(this%near%node)) deallocate (this%near%node)
+      allocate (this%near%node(n))
+      this%near%n = n
+    end if
+    call archive%exchange('wall.node', this%near%node(:n))
+    this%listed = n
+  end subroutine wall_exchange
 
 end module contact_wall

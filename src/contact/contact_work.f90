@@ -3,9 +3,11 @@
 module contact_work
   use base_kinds, only: wp, zero
   use cone_certificate, only: bipotential_residual
-  use cone_types, only: contact_open, contact_stick
+  use cone_types, only: certificate_t, contact_open, contact_stick
   use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force
-  use contact_types, only: contact_t, node_forces_t, pair_sums_t, no_gap
+  use contact_pairing, only: node_forces_t, pair_sums_t, no_gap
+  use contact_surface, only: surface_t
+  use contact_types, only: contact_t
   implicit none
   private
 
@@ -14,10 +16,10 @@ module contact_work
     real(wp) :: friction = zero
     real(wp) :: normal = zero
     real(wp) :: unsolved = zero       !< gained through the error of the contact solve
-    real(wp) :: allowed_growth = zero !< what the scheme's own bound lets the energy gain
+    real(wp) :: paid_back = zero      !< of the normal work by closing overlaps
   end type contact_work_t
 
-  public :: add_contact_step, subtract_contact_force
+  public :: add_contact_step, subtract_contact_force, start_row
 
 contains
 
@@ -29,14 +31,18 @@ contains
     real(wp), intent(in) :: du(:, :)
     type(contact_work_t), intent(inout) :: work
     integer :: a, p
-    do p = 1, size(contact%pair)
-      call clear_sums(contact%pair(p)%sums)
-      if (allocated(contact%pair(p)%nodal)) call clear_nodal(contact%pair(p)%nodal)
+    contact%idle_steps = min(2, contact%idle_steps + 1)
+    do p = 1, size(contact%pairing)
+      associate (pairing => contact%pairing(p)%item)
+        call clear_sums(pairing%sums)
+        if (allocated(pairing%nodal)) call clear_nodal(pairing%nodal)
+      end associate
     end do
     do a = 1, contact%rows%n
-      associate (pair => contact%pair(contact%rows%key(1, a)))
-        call add_force(contact%rows, a, pair%contactor_side, pair%sums)
-        if (allocated(pair%nodal)) call add_nodal(contact%rows, a, pair%nodal)
+      associate (pairing => contact%pairing(contact%rows%key(1, a))%item)
+        call add_force(contact%rows, a, pairing%sums)
+        if (allocated(pairing%nodal)) call add_nodal(contact%rows, a, pairing%side, &
+            pairing%nodal)
       end associate
       if (weight_before > zero) then
         call add_weighted_work(contact, contact%rows, a, weight_now, du, work)
@@ -49,8 +55,8 @@ contains
         call add_weighted_work(contact, contact%before, a, weight_before, du, work)
       end do
     end if
-    do p = 1, size(contact%pair)
-      associate (sums => contact%pair(p)%sums)
+    do p = 1, size(contact%pairing)
+      associate (sums => contact%pairing(p)%item%sums)
         sums%impulse = sums%impulse &
             + h*(weight_before*sums%force_before + weight_now*sums%force)
       end associate
@@ -66,7 +72,6 @@ contains
     sums%n_active = 0
     sums%n_stick = 0
     sums%n_slip = 0
-    sums%smallest_gap = no_gap
   end subroutine clear_sums
 
   pure subroutine clear_nodal(nodal)
@@ -74,41 +79,43 @@ contains
     nodal%before = nodal%force
     nodal%force = zero
     nodal%normal = zero
-    nodal%gap = no_gap
     nodal%slip = zero
     nodal%status = contact_open
   end subroutine clear_nodal
 
-  !> Force, gap and slip of a row to its nodes, in shares of their weights.
-  pure subroutine add_nodal(rows, a, nodal)
+  !> Force and slip of a row to its nodes, in shares of their weights.
+  pure subroutine add_nodal(rows, a, side, nodal)
     type(rows_t), intent(in) :: rows
     integer, intent(in) :: a
+    type(surface_t), intent(in) :: side(2)
     type(node_forces_t), intent(inout) :: nodal
     real(wp) :: force(2)
-    integer :: k, at
+    integer :: k, at, s
     force = row_force(rows, a)
     do k = rows%first(a), rows%first(a + 1) - 1
-      at = nodal%place(rows%point(k), merge(1, 2, k == rows%first(a)))
-      if (at == 0 .or. .not. abs(rows%weight(k)) > zero) cycle
+      s = rows%key(2, a)
+      if (k > rows%first(a) .and. size(side(2)%node) > 0) s = 3 - s
+      at = nodal%first(s) + side(s)%index(rows%point(k))
+      if (.not. abs(rows%weight(k)) > zero) cycle
       nodal%force(:, at) = nodal%force(:, at) + rows%weight(k)*force
       nodal%normal(at) = nodal%normal(at) + abs(rows%weight(k))*rows%r(1, a)
-      nodal%gap(at) = min(nodal%gap(at), rows%u(1, a))
       if (abs(rows%u(2, a)) > abs(nodal%slip(at))) nodal%slip(at) = rows%u(2, a)
       nodal%status(at) = max(nodal%status(at), rows%status(a))
     end do
   end subroutine add_nodal
 
-  !> Force of a row to the sums of its pair; side is that of the contactor.
-  pure subroutine add_force(rows, a, side, sums)
+  !> Force of a row to the sums of its pairing.
+  pure subroutine add_force(rows, a, sums)
     type(rows_t), intent(in) :: rows
-    integer, intent(in) :: a, side
+    integer, intent(in) :: a
     type(pair_sums_t), intent(inout) :: sums
     real(wp) :: force(2)
-    sums%smallest_gap = min(sums%smallest_gap, rows%u(1, a))
     if (rows%status(a) == contact_open) return
     force = row_force(rows, a)
-    sums%force(:, side) = sums%force(:, side) + force
-    sums%force(:, 3 - side) = sums%force(:, 3 - side) - force
+    associate (side => rows%key(2, a))
+      sums%force(:, side) = sums%force(:, side) + force
+      sums%force(:, 3 - side) = sums%force(:, 3 - side) - force
+    end associate
     sums%normal_force = sums%normal_force + rows%r(1, a)
     sums%tangential_force = sums%tangential_force + abs(rows%r(2, a))
     sums%n_active = sums%n_active + 1
@@ -130,15 +137,17 @@ contains
     associate (rows => contact%rows, d => contact%d)
       friction = rows%mu(a)*rows%r(1, a)*abs(rows%u(2, a))
       normal = rows%r(1, a)*rows%offset(a)
-      associate (sums => contact%pair(rows%key(1, a))%sums)
-        sums%friction_work = sums%friction_work + friction
-        sums%normal_work = sums%normal_work + normal
+      associate (pairing => contact%pairing(rows%key(1, a))%item)
+        pairing%sums%friction_work = pairing%sums%friction_work + friction
+        pairing%sums%normal_work = pairing%sums%normal_work + normal
+        pairing%purse%balance = pairing%purse%balance + normal
+        pairing%purse%spent = pairing%purse%spent + max(zero, -normal)
       end associate
       work%friction = work%friction + friction
       work%normal = work%normal + normal
       work%unsolved = work%unsolved &
           + bipotential_residual(rows%mu(a), rows%r(1:d, a), rows%u(1:d, a))
-      work%allowed_growth = work%allowed_growth + max(zero, -normal)
+      work%paid_back = work%paid_back + max(zero, -normal)
     end associate
   end subroutine add_implicit_work
 
@@ -153,13 +162,25 @@ contains
     real(wp) :: u(2)
     if (rows%status(a) == contact_open) return
     u = relative_displacement(rows, a, rows%point, du)
-    associate (sums => contact%pair(rows%key(1, a))%sums)
+    associate (sums => contact%pairing(rows%key(1, a))%item%sums)
       sums%friction_work = sums%friction_work - weight*rows%r(2, a)*u(2)
       sums%normal_work = sums%normal_work - weight*rows%r(1, a)*u(1)
     end associate
     work%friction = work%friction - weight*rows%r(2, a)*u(2)
     work%normal = work%normal - weight*rows%r(1, a)*u(1)
   end subroutine add_weighted_work
+
+  !> Counts since the last row of the table SLEOUT begin anew.
+  pure subroutine start_row(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: p
+    contact%tally%solves_since_row = 0
+    contact%tally%sweeps_since_row = 0
+    contact%tally%worst_since_row = certificate_t()
+    do p = 1, size(contact%pairing)
+      contact%pairing(p)%item%sums%penetration = zero
+    end do
+  end subroutine start_row
 
   !> f = f - factor H' r of all rows, f (2, nodes).
   pure subroutine subtract_contact_force(contact, factor, f)

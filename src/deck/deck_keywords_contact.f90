@@ -12,9 +12,11 @@ contains
   subroutine add_contact_keywords(table)
     type(table_t), intent(inout) :: table
     call add_contact(table, 'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', &
-        'contact of two bodies; the side with the shorter edges gives the nodes')
+        'contact of two bodies; nodes of both sides are watched')
     call add_contact(table, 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
-        'contact of the nodes of SURFA with the edges of SURFB')
+        'contact of two bodies; the nodes of SURFA are exact')
+    call add_contact(table, 'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE', &
+        'contact of all parts of SURFA with each other and with themselves')
     call add_wall(table)
   end subroutine add_contact_keywords
 
@@ -23,8 +25,13 @@ contains
     character(*), intent(in) :: name, help
     call add_keyword(table, name, help, id=.true., required=1)
     call add_card(table)
-    call add_field(table, 'SURFA', 'I10 req', 'part set; < 0: node set')
-    call add_field(table, 'SURFB', 'I10 req', 'part set; < 0: node set')
+    if (index(name, 'SINGLE_SURFACE') > 0) then
+      call add_field(table, 'SURFA', 'I10 =0 >=0', 'part set; 0 = all parts')
+      call add_field(table, 'SURFB', 'I10 fixed')
+    else
+      call add_field(table, 'SURFA', 'I10 req', 'part set; < 0: node set')
+      call add_field(table, 'SURFB', 'I10 req', 'part set; < 0: node set')
+    end if
     call add_field(table, 'SFACT', 'R10 note', 'of penalty methods')
     call add_field(table, 'FREQ', 'I10 note', 'of penalty methods')
     call add_field(table, 'FS', 'R10 =0.0 >=0', 'coefficient of friction mu')

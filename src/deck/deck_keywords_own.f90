@@ -41,7 +41,8 @@ contains
         '1 = start from the reactions of the last step')
     call add_card(table)
     call add_field(table, 'WSTORE', 'W10 =AUTO |AUTO|DENSE|', 'storage of W')
-    call add_field(table, 'FRAME', 'W10 =START fixed', 'frames of contact: start of the step')
+    call add_field(table, 'FRAME', 'W10 =START |START|REF|MID|END|', &
+        'normals of contact: start of the step, or reference geometry')
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
         'accepted penetration / segment length')
     call add_field(table, 'ROTWARN', 'R10 =5.0 >0', 'degrees of rotation that are warned of')
@@ -71,8 +72,8 @@ contains
         repeat_from=1)
     call add_card(table)
     call add_field(table, 'CID', 'I10 req >0', 'contact: its id, or its number in the deck')
-    call add_field(table, 'SIDE', 'W10 =AUTO |AUTO|A|B|', &
-        'whose nodes: A, B, or AUTO: the side with the shorter edges')
+    call add_field(table, 'SIDE', 'W10 =AUTO |AUTO|A|B|BOTH|', &
+        'whose nodes are exact: A, B, both, or AUTO: of the locally finer side')
     call add_field(table, 'ATYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFA is')
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
     call add_field(table, 'REST', 'R10 fixed', 'restitution of velocity-level schemes')

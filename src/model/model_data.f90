@@ -74,13 +74,19 @@ module model_data
 
   !> What a side of a contact card is.
   integer, parameter, public :: side_part_set = 1, side_node_set = 2, side_part = 3, &
-      side_segment_set = 4, side_all_nodes = 5
+      side_segment_set = 4, side_all_nodes = 5, side_all_parts = 6, &
+      side_parts = 7
 
   type, public :: contact_card_t
     integer :: id = 0
     integer :: kind(2) = 0          !< side_...
     integer :: side(2) = 0          !< row of the set or part
-    integer :: contactor = 0        !< 1 = SURFA, 2 = SURFB, 0 = the side with the shorter edges
+    !> Side whose nodes are exact: 1 = SURFA, 2 = SURFB, 3 = both, 0 = the locally finer one
+    integer :: contactor = 0
+    logical :: is_self = .false.    !< one surface against itself: that of parts(:)
+    logical :: is_of_all = .false.  !< of all parts: what other cards name is theirs
+    integer, allocatable :: parts(:)
+    logical, allocatable :: leaves_out(:, :)   !< (parts, parts) pairs that do not touch
     real(wp) :: mu = 0.0_wp
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)
@@ -160,6 +166,7 @@ module model_data
     logical :: stop_on_growth = .false.
     real(wp) :: rotation_warning = 5.0_wp      !< [degrees]
     real(wp) :: penetration_tolerance = 1.0e-9_wp
+    character(10) :: frame = 'START'    !< normals of contact: START or REF
   end type controls_t
 
   type, public :: model_t

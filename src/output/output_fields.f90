@@ -5,7 +5,8 @@ module output_fields
   use assembly_forces, only: element_product
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, half, one
-  use contact_types, only: contact_t, no_gap
+  use contact_pairing, only: no_gap
+  use contact_types, only: contact_t
   use element_base, only: element_t
   use element_registry, only: make_element
   use model_data, only: model_t, corner_count, field_names
@@ -278,9 +279,9 @@ contains
     all_nodes = zero
     if (field%name == 'GAP') all_nodes = no_gap
     if (field%name == 'STATUS') all_nodes = -1.0_wp
-    do p = 1, size(contact%pair)
-      if (.not. allocated(contact%pair(p)%nodal)) cycle
-      associate (c => contact%pair(p)%nodal)
+    do p = 1, size(contact%pairing)
+      if (.not. allocated(contact%pairing(p)%item%nodal)) cycle
+      associate (c => contact%pairing(p)%item%nodal)
         do k = 1, size(c%node)
           associate (to => all_nodes(:, c%node(k)))
             select case (field%name)

@@ -4,8 +4,9 @@ module output_forces
   use base_format, only: real_writer_t
   use base_kinds, only: wp, zero, half
   use base_status, only: status_t
-  use contact_types, only: contact_t, pair_t, no_gap
-  use cone_types, only: certificate_t
+  use contact_pairing, only: pairing_t, no_gap
+  use contact_types, only: contact_t
+  use contact_work, only: start_row
   use model_data, only: model_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers
@@ -23,14 +24,14 @@ contains
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     integer :: p, s
-    do p = 1, size(contact%pair)
-      if (contact%pair(p)%is_wall) cycle
+    do p = 1, size(contact%pairing)
+      if (contact%pairing(p)%item%is_wall) cycle
       do s = 1, 2
         call begin_row(file, status)
         call add_number(file, writer, time)
-        call add_count(file, contact%pair(p)%id)
+        call add_count(file, contact%pairing(p)%item%id)
         call add_count(file, s)
-        call add_sums(file, writer, contact%pair(p), s)
+        call add_sums(file, writer, contact%pairing(p)%item, s)
       end do
     end do
   end subroutine write_rcforc
@@ -43,22 +44,22 @@ contains
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     integer :: p
-    do p = 1, size(contact%pair)
-      if (.not. contact%pair(p)%is_wall) cycle
+    do p = 1, size(contact%pairing)
+      if (.not. contact%pairing(p)%item%is_wall) cycle
       call begin_row(file, status)
       call add_number(file, writer, time)
-      call add_count(file, contact%pair(p)%id)
-      call add_sums(file, writer, contact%pair(p), 1)
+      call add_count(file, contact%pairing(p)%item%id)
+      call add_sums(file, writer, contact%pairing(p)%item, 1)
     end do
   end subroutine write_rwforc
 
   !> Force of the step, mean of two, impulse, magnitudes, counts, gap of one side; ends the row.
-  subroutine add_sums(file, writer, pair, side)
+  subroutine add_sums(file, writer, pairing, side)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
-    type(pair_t), intent(in) :: pair
+    class(pairing_t), intent(in) :: pairing
     integer, intent(in) :: side
-    associate (s => pair%sums)
+    associate (s => pairing%sums)
       call add_numbers(file, writer, [s%force(:, side), zero, &
           half*(s%force(:, side) + s%force_before(:, side)), zero, s%impulse(:, side), zero, &
           s%normal_force, s%tangential_force])
@@ -78,35 +79,45 @@ contains
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
+    real(wp) :: works(2), penetration
     integer :: p
-    do p = 0, size(contact%pair)
+    do p = 0, size(contact%pairing)
       if (p > 0) then
-        if (contact%pair(p)%is_wall) cycle
+        if (contact%pairing(p)%item%is_wall) cycle
       end if
+      call sums_of(contact, p, works, penetration)
       call begin_row(file, status)
       call add_number(file, writer, time)
-      if (p == 0) then
-        call add_count(file, 0)
-        call add_numbers(file, writer, &
-            [sum(contact%pair%sums%normal_work), sum(contact%pair%sums%friction_work)])
-      else
-        call add_count(file, contact%pair(p)%id)
-        call add_numbers(file, writer, &
-            [contact%pair(p)%sums%normal_work, contact%pair(p)%sums%friction_work])
-      end if
-      call add_count(file, contact%tally%solves_since_row)
-      call add_count(file, contact%tally%sweeps_since_row)
-      call add_numbers(file, writer, [contact%tally%worst_since_row%eta, &
-          contact%tally%worst_since_row%error, contact%tally%worst_since_row%error2018])
-      if (p == 0) call add_number(file, writer, maxval([zero, contact%pair%sums%penetration]))
-      if (p > 0) call add_number(file, writer, contact%pair(p)%sums%penetration)
+      if (p == 0) call add_count(file, 0)
+      if (p > 0) call add_count(file, contact%pairing(p)%item%id)
+      call add_numbers(file, writer, works)
+      associate (tally => contact%tally)
+        call add_count(file, tally%solves_since_row)
+        call add_count(file, tally%sweeps_since_row)
+        call add_numbers(file, writer, [tally%worst_since_row%eta, &
+            tally%worst_since_row%error, tally%worst_since_row%error2018, penetration])
+      end associate
       call end_row(file)
     end do
-    contact%tally%solves_since_row = 0
-    contact%tally%sweeps_since_row = 0
-    contact%tally%worst_since_row = certificate_t()
-    contact%pair%sums%penetration = zero
+    call start_row(contact)
   end subroutine write_sleout
+
+  !> Works [F L] (normal, friction) and largest overlap [L] of pairing p; of all: p = 0.
+  pure subroutine sums_of(contact, p, works, penetration)
+    type(contact_t), intent(in) :: contact
+    integer, intent(in) :: p
+    real(wp), intent(out) :: works(2), penetration
+    integer :: k
+    works = zero
+    penetration = zero
+    do k = 1, size(contact%pairing)
+      if (p > 0 .and. p /= k) cycle
+      associate (sums => contact%pairing(k)%item%sums)
+        works = works + [sums%normal_work, sums%friction_work]
+        penetration = max(penetration, sums%penetration)
+      end associate
+    end do
+  end subroutine sums_of
 
   !> Nodes that are listed, or were pressed in this step or the last.
   subroutine write_ncforc(file, writer, model, contact, time, status)
@@ -118,16 +129,16 @@ contains
     type(status_t), intent(inout) :: status
     real(wp) :: pressure
     integer :: p, k
-    do p = 1, size(contact%pair)
-      if (contact%pair(p)%is_wall) cycle
-      associate (c => contact%pair(p)%nodal)
+    do p = 1, size(contact%pairing)
+      if (contact%pairing(p)%item%is_wall) cycle
+      associate (c => contact%pairing(p)%item%nodal)
         do k = 1, size(c%node)
           if (c%gap(k) >= no_gap .and. .not. any(abs(c%before(:, k)) > zero)) cycle
           pressure = zero
           if (c%area(k) > zero) pressure = c%normal(k)/c%area(k)
           call begin_row(file, status)
           call add_number(file, writer, time)
-          call add_count(file, contact%pair(p)%id)
+          call add_count(file, contact%pairing(p)%item%id)
           call add_count(file, c%side(k))
           call add_count(file, model%node_id(c%node(k)))
           call add_numbers(file, writer, [c%force(:, k), zero, &

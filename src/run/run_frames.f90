@@ -7,6 +7,7 @@ module run_frames
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
+  use contact_area, only: find_all_areas
   use output_fields, only: make_fields, make_mesh, fill_fields, frame_is_due, next_frame
   use output_storage, only: segment_options_t
   use output_xdmf, only: write_xdmf, segment_name
@@ -40,6 +41,7 @@ contains
       if (.not. run%fields%time(run%fields%frames) < run%state%time) return
     end if
     call run%timers%enter(phase_output)
+    if (run%plan%contact) call find_all_areas(run%model, run%contact, run%state%u)
     call fill_fields(run%model, run%system, run%state, run%contact, run%fields)
     if (first) call open_segment(run, own)
     if (.not. failed(own)) call run%storage%add_frame(run%state%time, run%fields%field, own)

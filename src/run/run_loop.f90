@@ -10,8 +10,9 @@ module run_loop
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_search, phase_contact, &
       phase_update, phase_energy, phase_output, phase_other
-  use contact_condense, only: build_w
-  use contact_setup, only: find_candidates
+  use contact_monitor, only: check_all
+  use contact_rows, only: copy_rows
+  use contact_search, only: update_lists, relist_outrun
   use contact_stage, only: solve_contact, correct_contact, settle_contact
   use contact_work, only: add_contact_step, contact_work_t
   use linalg_solver, only: solve_whole
@@ -24,7 +25,7 @@ module run_loop
   use run_restart, only: keep_restart
   use run_setup, only: factor_matrix
   use run_tables, only: write_rows
-  use time_ledger, only: evaluate_ledger
+  use time_ledger, only: evaluate_ledger, largest_work
   implicit none
   private
   public :: go_through_steps, advance
@@ -62,28 +63,16 @@ contains
     type(status_t), intent(inout) :: status
     real(wp) :: t1
     integer :: stage
-    logical :: acting
+    logical :: acting, again
     t1 = merge(run%model%controls%end_time, (run%state%cycle + 1)*run%model%controls%dt, &
         run%state%cycle == run%plan%full_steps)
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
-    acting = .false.
     do stage = 1, size(run%scheme%stage)
-      call run%timers%enter(phase_product)
-      run%b = zero
-      if (run%plan%loads) call weigh_loads(run, t1)
-      call run%scheme%right_side(stage, run%system, run%state, run%b)
-      call hold_dofs(run, stage, t1)
-      call run%timers%enter(phase_solve)
-      call run%solver%forward(run%b, run%b_last)
-      run%x_last = run%b_last
-      call run%solver%solve_last(run%x_last)
-      if (run%plan%contact) call add_contact(run, acting, status)
-      call run%solver%backward(run%x_last, run%x)
-      run%solves = run%solves + 1
-      if (run%plan%refinement) call refine(run, stage, acting, status)
-      if (run%plan%motions) call restore_motions(run)
+      call solve_stage(run, stage, t1, acting, status)
+      if (run%plan%contact) call look_back(run, again, status)
+      if (run%plan%contact .and. again) call solve_stage(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
       call swap(run%state%du, run%x)
@@ -95,6 +84,30 @@ contains
     call account(run, acting, status)
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance
+
+  !> The motion x of a stage, with contact.
+  subroutine solve_stage(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(out) :: acting
+    type(status_t), intent(inout) :: status
+    acting = .false.
+    call run%timers%enter(phase_product)
+    run%b = zero
+    if (run%plan%loads) call weigh_loads(run, t1)
+    call run%scheme%right_side(stage, run%system, run%state, run%b)
+    call hold_dofs(run, stage, t1)
+    call run%timers%enter(phase_solve)
+    call run%solver%forward(run%b, run%b_last)
+    run%x_last = run%b_last
+    call run%solver%solve_last(run%x_last)
+    if (run%plan%contact) call add_contact(run, acting, status)
+    call run%solver%backward(run%x_last, run%x)
+    run%solves = run%solves + 1
+    if (run%plan%refinement) call refine(run, stage, acting, status)
+    if (run%plan%motions) call restore_motions(run)
+  end subroutine solve_stage
 
   !> Corrects x where the effective matrix is stiff; with contact also the reactions, until they
   !> meet their certificate for the motion as it is. Each pass gains the digits that the factor
@@ -196,30 +209,42 @@ contains
     end if
   end subroutine hold_dofs
 
-  !> Candidates for the step; a larger interface means another elimination order.
+  !> Lists for the step; a larger interface means another elimination order.
   subroutine prepare_contact(run, t1, status)
     type(run_t), intent(inout) :: run
     real(wp), intent(in) :: t1
     type(status_t), intent(inout) :: status
     logical :: new_interface
     call run%timers%enter(phase_search)
-    call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
+    call update_lists(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
         run%largest_motion, run%scheme%h, run%state%cycle, t1, new_interface, status)
+    if (run%contact%keeps_before) call copy_rows(run%contact%rows, run%contact%before)
     if (failed(status)) call add_place(status, moment(run))
     if (new_interface) call factor_matrix(run, .true., status)
   end subroutine prepare_contact
 
+  !> A step that has outrun its lists is solved again with longer ones.
+  subroutine look_back(run, again, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(out) :: again
+    type(status_t), intent(inout) :: status
+    logical :: new_interface
+    call run%timers%enter(phase_search)
+    call relist_outrun(run%model, run%contact, run%state%u, run%x, run%state%v, run%scheme%h, &
+        run%state%cycle, again, new_interface, status)
+    if (new_interface) call factor_matrix(run, .true., status)
+  end subroutine look_back
+
   !> Contact on the interface: reactions for the free motion x_last, then the motion with them.
   subroutine add_contact(run, acting, status)
     type(run_t), intent(inout) :: run
-    logical, intent(out) :: acting
+    logical, intent(inout) :: acting
     type(status_t), intent(inout) :: status
-    acting = .false.
     run%force = zero
-    if (run%contact%rows%n == 0) return
+    if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
     call run%timers%enter(phase_contact)
-    call build_w(run%contact)
-    call solve_contact(run%model, run%contact, run%x_last, run%force, acting, status)
+    call solve_contact(run%model, run%contact, run%state%u, run%x_last, &
+        largest_work(run%ledger), run%force, acting, status)
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
@@ -311,9 +336,10 @@ contains
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
         + run%scheme%dissipation(run%system, run%state)
     if (.not. run%plan%contact) return
-    if (run%contact%rows%n == 0 .and. run%contact%before%n == 0) return
+    if (run%contact%idle_steps == 2) return
     call run%timers%enter(phase_contact)
-    call settle_contact(run%model, run%contact, run%state%du, acting, status)
+    call settle_contact(run%model, run%contact, run%state%u, run%state%du, run%state%cycle, &
+        acting, status)
     call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
         run%scheme%h, run%state%du, run%ledger%contact)
   end subroutine account
@@ -332,13 +358,24 @@ contains
     if (energies .and. .not. run%broken) call watch(run, status)
     if (run%broken) return
     if (run%plan%fields) call keep_frame(run, last, status)
+    if (last .and. run%plan%contact .and. .not. failed(status)) call check_overlap(run, status)
     if (.not. (run%tables%any_on .and. last)) then
       if (.not. any_due(run%tables, run%state%time, h)) return
     end if
+    if (.not. last .and. run%plan%contact) call check_overlap(run, status)
     call run%timers%enter(phase_output)
     call write_rows(run, last, status)
     call run%timers%enter(phase_other)
   end subroutine tell
+
+  !> True overlap of all bodies in contact, at output times and at the end.
+  subroutine check_overlap(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call run%timers%enter(phase_search)
+    call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
+    if (failed(status)) call add_place(status, moment(run))
+  end subroutine check_overlap
 
   !> Energies, growth of energy, rotation of elements.
   subroutine watch(run, status)
@@ -353,11 +390,11 @@ contains
       run%rotation = angle
       run%rotation_element = element
     end if
-    if (run%ledger%largest_growth > run%model%controls%growth) then
+    if (run%ledger%growth > run%model%controls%growth) then
       run%ledger%growths = run%ledger%growths + 1
       if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
       if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
-          'energy growth of '//to_text(run%ledger%largest_growth)//' of the largest term', &
+          'energy growth of '//to_text(run%ledger%growth)//' of the largest term', &
           place=moment(run), hint='choose SCHEME THETA, or ACTION WARN')
     end if
     if (run%model%controls%end_ratio > zero) then

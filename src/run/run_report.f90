@@ -8,6 +8,8 @@ module run_report
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
+  use contact_rows, only: row_edge, row_vertex, row_second, row_wall
+  use contact_types, only: contact_t
   use deck_echo, only: write_echo
   use deck_problems, only: add_note, add_warning
   use run_data, only: run_t
@@ -101,20 +103,40 @@ contains
         call add_warning(run%deck%problems, 'certificate: in some step the contact forces '// &
         'meet their law only to error '//to_text(run%contact%tally%worst%error)//', eta '// &
         to_text(run%contact%tally%worst%eta)//' for the motion as computed')
+    if (run%contact%tally%overlap_step >= 0) call add_warning(run%deck%problems, &
+        'overlap: bodies overlap by up to '//to_text(run%contact%tally%overlap_share)// &
+        ' of the shorter edge, deepest at node '// &
+        to_text(run%model%node_id(run%contact%tally%overlap_node))//'; first at step '// &
+        to_text(run%contact%tally%overlap_step))
+    call note_touches(run)
     if (run%contact%tally%wedged > 0) call add_warning(run%deck%problems, 'wedging: '// &
         to_text(run%contact%tally%wedged)//' times friction was so large at a contact '// &
         '(mu |W_nt| > W_nn) that several answers may exist; first at node '// &
         to_text(run%model%node_id(run%contact%tally%wedged_node)))
-    if (run%ledger%contact%allowed_growth > run%model%controls%growth*run%ledger%largest) &
-        call add_note(run%deck%problems, 'energy: closing penetrations that sliding along '// &
-        'deformed edges had made gave the bodies '// &
-        to_text(run%ledger%contact%allowed_growth))
     degrees = run%rotation*180.0_wp/acos(-1.0_wp)
     if (degrees > run%model%controls%rotation_warning) &
         call add_warning(run%deck%problems, 'rotation: element '// &
         to_text(run%model%element_id(run%rotation_element))//' turned by '//to_text(degrees)// &
         ' degrees; the kinematics are those of small displacements')
   end subroutine collect_warnings
+
+  !> Overlaps at the start that were taken for touches, and what closing overlaps gave back.
+  subroutine note_touches(run)
+    type(run_t), intent(inout) :: run
+    integer :: p
+    do p = 1, size(run%contact%pairing)
+      associate (pairing => run%contact%pairing(p)%item)
+        if (pairing%accepted_overlap > zero) call add_note(run%deck%problems, &
+            trim(merge('wall   ', 'contact', pairing%is_wall))//' '//to_text(pairing%id)// &
+            ': nodes up to '//to_text(pairing%accepted_overlap)//' deep at its start are '// &
+            'taken as touching: that is the rounding of the fields of a deck')
+        if (pairing%purse%spent > 1.0e-9_wp*run%ledger%largest) call add_note( &
+            run%deck%problems, trim(merge('wall   ', 'contact', pairing%is_wall))//' '// &
+            to_text(pairing%id)//': closing overlaps gave back '// &
+            to_text(pairing%purse%spent)//' of the energy that impacts had taken')
+      end associate
+    end do
+  end subroutine note_touches
 
   !> Steps, counts, ledger, contact certificate.
   subroutine write_summary(run, unit)
@@ -136,9 +158,10 @@ contains
           to_text(l%damping)//'; unsolved '//to_text(l%contact%unsolved)
       write (unit, '(a)') '  ledger residual '//to_text(l%residual)//' (worst '// &
           to_text(l%worst_residual)//'), ratio '//to_text(l%ratio)
+      if (run%plan%contact) call write_rows_by_kind(run%contact, unit)
       if (run%plan%contact) write (unit, '(a)') 'contact: worst error '// &
           to_text(c%worst%error)//', eta '//to_text(c%worst%eta)//', penetration/edge '// &
-          to_text(c%worst_penetration)//', certificate '// &
+          to_text(c%overlap_share)//', certificate '// &
           trim(merge('met    ', 'not met', c%worst%met))
     end associate
     if (run%plan%fields) write (unit, '(a)') 'frames '//to_text(run%fields%frames)// &
@@ -149,6 +172,28 @@ contains
     write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
         to_text(run%deck%problems%warning_count)
   end subroutine write_summary
+
+  !> How many rows of which kind the contact solves had, and what was found missing.
+  subroutine write_rows_by_kind(contact, unit)
+    type(contact_t), intent(in) :: contact
+    integer, intent(in) :: unit
+    character(:), allocatable :: line
+    integer :: p, short
+    short = 0
+    do p = 1, size(contact%pairing)
+      short = short + contact%pairing(p)%item%purse%short_steps
+    end do
+    associate (t => contact%tally)
+      line = 'rows in contact solves: edge '//to_text(t%rows(row_edge))//', vertex '// &
+          to_text(t%rows(row_vertex))//', second '//to_text(t%rows(row_second))//', wall '// &
+          to_text(t%rows(row_wall))//'; of them with an allowance '//to_text(t%allowances)
+      write (unit, '(a)') line
+      write (unit, '(a)') '  late rows '//to_text(t%late_rows)//', frames redone '// &
+          to_text(t%new_frames)//', repeats for the purse '//to_text(t%repeats)// &
+          ', steps with a short purse '//to_text(short)//', steps that outran a list '// &
+          to_text(t%redone)
+    end associate
+  end subroutine write_rows_by_kind
 
   !> Largest resident memory so far as the system tells it; "unknown" where it does not.
   function peak_memory() result(text)

@@ -5,7 +5,8 @@ module run_setup
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
-  use contact_setup, only: make_contact, contact_nodes, find_candidates
+  use contact_search, only: update_lists
+  use contact_setup, only: make_contact, contact_nodes
   use deck_keywords, only: fill_table
   use deck_parameter, only: override_t
   use deck_problems, only: add_note
@@ -55,13 +56,13 @@ contains
       call make_contact(run%model, run%cone, run%contact)
       if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
     else
-      allocate (run%contact%interface_node(0), run%contact%pair(0), run%contact%rows)
+      allocate (run%contact%interface_node(0), run%contact%pairing(0), run%contact%rows)
     end if
     call make_system(run%model, massless, run%system, status)
     if (failed(status)) return
     call make_scheme(run%model%controls, run%scheme, status)
     if (failed(status)) return
-    if (run%plan%contact) run%contact%keeps_before = run%scheme%weight_before > zero
+    if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
     call make_motions(run)
     call run%scheme%start(run%model, run%system, run%state, status)
@@ -76,7 +77,7 @@ contains
       allocate (run%load_0(2, run%system%n), run%load_1(2, run%system%n))
       run%load_0 = zero
     end if
-    call first_candidates(run, status)
+    call first_lists(run, status)
     call factor_matrix(run, .true., status)
     call plan_refinement(run)
     call run%timers%enter(phase_other)
@@ -111,17 +112,28 @@ contains
         allocate (run%correction(2, run%system%n), run%b_kept(2, run%system%n))
   end subroutine plan_refinement
 
-  subroutine first_candidates(run, status)
+  !> What contact must know of the scheme: whether forces of both ends of a step act (then rows are
+  !> kept for a step, and closing overlaps has no bound).
+  subroutine set_contact_rule(run)
+    type(run_t), intent(inout) :: run
+    integer :: p
+    run%contact%keeps_before = run%scheme%weight_before > zero
+    do p = 1, size(run%contact%pairing)
+      run%contact%pairing(p)%item%is_energy_safe = .not. run%contact%keeps_before
+    end do
+  end subroutine set_contact_rule
+
+  subroutine first_lists(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     logical :: new_interface
     if (.not. run%plan%contact .or. failed(status)) return
     call run%timers%enter(phase_search)
-    call find_candidates(run%model, run%contact, run%state%u, run%state%du, run%state%v, zero, &
+    call update_lists(run%model, run%contact, run%state%u, run%state%du, run%state%v, zero, &
         run%scheme%h, 0, run%scheme%h, new_interface, status)
-    if (failed(status)) &
-        call add_place(status, run%deck%place(run%contact%pair(run%contact%searched)%record))
-  end subroutine first_candidates
+    if (failed(status)) call add_place(status, &
+        run%deck%place(run%contact%pairing(run%contact%searched)%item%record))
+  end subroutine first_lists
 
   !> Factor of the effective matrix, with the interface nodes last and their flexibility; again is
   !> true when the interface has changed and the order must be found anew.

@@ -7,6 +7,7 @@ module run_tables
   use output_table, only: row_is_due, rows_done
   use output_tables, only: table_glstat, table_matsum, table_nodout, table_elout, &
       table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing
+  use contact_area, only: find_all_areas
   use run_data, only: run_t
   implicit none
   private
@@ -53,6 +54,7 @@ contains
         call write_spcforc(file, writer, model, run%system%fixed, run%mean_reaction, &
             time, status)
       case (table_ncforc)
+        call find_all_areas(model, run%contact, state%u)
         call write_ncforc(file, writer, model, run%contact, time, status)
       case (table_timing)
         call write_timing(file, writer, state, run%timers, run%factors, run%solves, &

@@ -6,14 +6,16 @@ module scene_contact
   use deck_data, only: deck_t
   use deck_problems, only: add_note, add_warning
   use model_data, only: model_t, contact_card_t, wall_t, side_part_set, side_node_set, &
-      side_part, side_segment_set
+      side_part, side_segment_set, side_all_parts
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
+  use scene_sharing, only: share_parts
   implicit none
   private
   public :: read_contacts, read_walls
 
-  character(40), parameter :: keyword(2) = [character(40) :: &
-      'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE']
+  character(40), parameter :: keyword(3) = [character(40) :: &
+      'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
+      'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE']
   character(5), parameter :: surface(2) = ['SURFA', 'SURFB']
   character(4), parameter :: kind_field(2) = ['ATYP', 'BTYP']
 
@@ -27,8 +29,10 @@ contains
     integer, allocatable :: record(:), other(:), pair(:)
     integer :: k
     call records_of(deck, trim(keyword(1)), 1, record)
-    call records_of(deck, trim(keyword(2)), 1, other)
-    record = merged(record, other)
+    do k = 2, size(keyword)
+      call records_of(deck, trim(keyword(k)), 1, other)
+      record = merged(record, other)
+    end do
     allocate (model%contact(size(record)))
     do k = 1, size(record)
       call read_card(deck, record(k), k, model%contact(k))
@@ -38,6 +42,7 @@ contains
     do k = 1, size(record)
       call find_sides(deck, model, maps, pair(k), model%contact(k))
     end do
+    if (deck%problems%count == 0) call share_parts(deck, model)
     call warn_thickness(deck, model)
   end subroutine read_contacts
 
@@ -75,6 +80,7 @@ contains
     card%id = head_number(deck, record, number)
     if (index(deck%block(deck%record(record)%block)%written, '_NODE_TO_') > 0) &
         card%contactor = 1
+    card%is_self = index(deck%block(deck%record(record)%block)%written, 'SINGLE_SURFACE') > 0
     card%mu = deck%real(record, 'FS')
     if (deck%is_given(record, 'FD') .and. abs(deck%real(record, 'FD') - card%mu) > zero) &
         call add_note(deck%problems, deck%place(record)// &
@@ -121,6 +127,11 @@ contains
         pair(row) = r
         if (deck%word(r, 'SIDE') == 'A') model%contact(row)%contactor = 1
         if (deck%word(r, 'SIDE') == 'B') model%contact(row)%contactor = 2
+        if (deck%word(r, 'SIDE') == 'BOTH') then
+          model%contact(row)%contactor = 3
+          call add_warning(deck%problems, deck%place(r)//': SIDE BOTH: nodes of both sides '// &
+              'are exact; their reactions are not unique, resultants are')
+        end if
       end if
       r = deck%next('BIPACT_PAIR', 1, r)
     end do
@@ -135,8 +146,13 @@ contains
     type(contact_card_t), intent(inout) :: card
     character(:), allocatable :: kind
     integer :: s, id
-    do s = 1, 2
+    do s = 1, merge(1, 2, card%is_self)
       id = deck%integer(card%record, surface(s))
+      if (card%is_self .and. id == 0) then
+        card%kind(s) = side_all_parts
+        card%side(s) = 0
+        cycle
+      end if
       kind = ''
       if (pair > 0) kind = deck%word(pair, kind_field(s))
       if (kind == '' .and. id < 0) kind = 'NODESET'
@@ -160,27 +176,7 @@ contains
             ' is not defined', 'SURFA and SURFB are part sets; negative: node sets')
       end select
     end do
-    if (card%kind(1) == side_part_set .and. card%kind(2) == side_part_set) &
-        call check_common_parts(deck, model, card)
   end subroutine find_sides
-
-  !> A part on both sides would touch itself.
-  subroutine check_common_parts(deck, model, card)
-    type(deck_t), intent(inout) :: deck
-    type(model_t), intent(in) :: model
-    type(contact_card_t), intent(in) :: card
-    integer :: k
-    if (any(card%side == 0)) return
-    associate (a => model%part_set(card%side(1))%member, &
-        b => model%part_set(card%side(2))%member)
-      do k = 1, size(a)
-        if (.not. any(b == a(k))) cycle
-        call deck%complain(card%record, 'SURFB', 'part '//to_text(model%part(a(k))%id)// &
-            ' is on both sides', 'contact of a body with itself is not available')
-        return
-      end do
-    end associate
-  end subroutine check_common_parts
 
   !> Bodies of different thickness in contact: forces are totals, pressures differ.
   subroutine warn_thickness(deck, model)
@@ -190,7 +186,7 @@ contains
     integer :: k, s
     do k = 1, size(model%contact)
       associate (card => model%contact(k))
-        if (any(card%side == 0) .or. any(card%kind /= side_part_set)) cycle
+        if (card%is_self .or. any(card%side == 0) .or. any(card%kind /= side_part_set)) cycle
         low = huge(low)
         high = zero
         do s = 1, 2

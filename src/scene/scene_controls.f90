@@ -97,6 +97,7 @@ contains
       controls%scheme = 'NEWMARK'
       if (deck%next('CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 1, 0) > 0 &
           .or. deck%next('CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', 1, 0) > 0 &
+          .or. deck%next('CONTACT_2D_AUTOMATIC_SINGLE_SURFACE', 1, 0) > 0 &
           .or. deck%next('RIGIDWALL_PLANAR', 1, 0) > 0) &
           call add_warning(deck%problems, 'no *BIPACT_TIME: the scheme is NEWMARK, which '// &
           'gains energy without bound on impact; choose SCHEME THETA')
@@ -140,7 +141,7 @@ contains
 
   !> *BIPACT_CONTACT and *BIPACT_SOLVER.
   subroutine read_solver_options(deck, controls, cone, solver)
-    type(deck_t), intent(in) :: deck
+    type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
     type(cone_options_t), intent(inout) :: cone
     type(solver_options_t), intent(inout) :: solver
@@ -158,6 +159,10 @@ contains
       second = deck%follow(r, 2)
       if (second > 0) then
         controls%penetration_tolerance = deck%real(second, 'PENTOL')
+        controls%frame = deck%word(second, 'FRAME')
+        if (controls%frame == 'MID' .or. controls%frame == 'END') call deck%complain(second, &
+            'FRAME', 'FRAME '//trim(controls%frame)//' is not available in this version', &
+            'choose START or REF')
         controls%rotation_warning = deck%real(second, 'ROTWARN')
         controls%dump_first = deck%integer(second, 'DFIRST')
         controls%dump_last = max(controls%dump_first, deck%integer(second, 'DLAST'))

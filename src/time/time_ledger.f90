@@ -29,7 +29,8 @@ module time_ledger
     real(wp) :: lowest = huge(1.0_wp)
     integer :: growths = 0
     integer :: first_growth = -1
-    real(wp) :: largest_growth = zero   !< / largest term
+    real(wp) :: growth = zero           !< at the last evaluation, / largest term
+    real(wp) :: largest_growth = zero   !< so far
     real(wp) :: worst_residual = zero
     real(wp), allocatable :: part_kinetic(:), part_internal(:), part_momentum(:, :)
     real(wp), allocatable :: part_mass(:)
@@ -41,7 +42,7 @@ module time_ledger
     real(wp), allocatable :: corner_share(:)
   end type ledger_t
 
-  public :: make_ledger, evaluate_ledger, balance, exchange_ledger
+  public :: make_ledger, evaluate_ledger, balance, exchange_ledger, largest_work
 
 contains
 
@@ -168,17 +169,27 @@ contains
     if (abs(source) > zero) ledger%ratio = ledger%total/source
   end subroutine balance
 
-  !> How far the energy that the bodies were not given has risen above its minimum so far. The
-  !> rise that closing penetrations explains (a place that moved along an edge which is not
-  !> straight any more) is the scheme's own, and reported apart.
+  !> Growth: total - (initial + external + motion), or how far the energy that the bodies were
+  !> not given has risen above its minimum so far, less what closing overlaps has paid back of
+  !> earlier losses; the larger of the two, / the largest term.
   pure subroutine watch_growth(ledger)
     type(ledger_t), intent(inout) :: ledger
     real(wp) :: free
-    free = ledger%total - ledger%external - ledger%motion - ledger%contact%allowed_growth
-    ledger%lowest = min(ledger%lowest, free)
+    free = ledger%total - ledger%external - ledger%motion
+    ledger%growth = zero
+    ledger%lowest = min(ledger%lowest, free - ledger%contact%paid_back)
     if (.not. ledger%largest > zero) return
-    ledger%largest_growth = max(ledger%largest_growth, (free - ledger%lowest)/ledger%largest)
+    ledger%growth = max(zero, free - ledger%initial, &
+        free - ledger%contact%paid_back - ledger%lowest)/ledger%largest
+    ledger%largest_growth = max(ledger%largest_growth, ledger%growth)
   end subroutine watch_growth
+
+  !> The largest of the terms that are known in every step [F L], whatever tables are asked for.
+  pure real(wp) function largest_work(ledger)
+    type(ledger_t), intent(in) :: ledger
+    largest_work = max(abs(ledger%initial), abs(ledger%external), abs(ledger%motion), &
+        abs(ledger%contact%friction), abs(ledger%contact%normal))
+  end function largest_work
 
   !> Saves to or restores from the archive.
   subroutine exchange_ledger(archive, ledger)
@@ -187,7 +198,7 @@ contains
     real(wp) :: values(13)
     integer :: counts(2)
     values = [ledger%initial, ledger%external, ledger%motion, ledger%contact%friction, &
-        ledger%contact%normal, ledger%contact%unsolved, ledger%contact%allowed_growth, &
+        ledger%contact%normal, ledger%contact%unsolved, ledger%contact%paid_back, &
         ledger%algorithmic, ledger%damping, ledger%largest, ledger%lowest, &
         ledger%worst_residual, ledger%largest_growth]
     counts = [ledger%growths, ledger%first_growth]
@@ -199,7 +210,7 @@ contains
     ledger%contact%friction = values(4)
     ledger%contact%normal = values(5)
     ledger%contact%unsolved = values(6)
-    ledger%contact%allowed_growth = values(7)
+    ledger%contact%paid_back = values(7)
     ledger%algorithmic = values(8)
     ledger%damping = values(9)
     ledger%largest = values(10)

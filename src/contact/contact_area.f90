@@ -1,0 +1,176 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Forces on the nodes of a pairing for tables and fields, and the area that carries them: that
+!> of the boundary which something faces.
+module contact_area
+  use base_kinds, only: wp, zero, one, half
+  use cone_types, only: contact_open
+  use contact_features, only: normal_between, difference
+  use contact_pairing, only: pairing_t, no_gap
+  use contact_surface, only: surface_t
+  use contact_types, only: contact_t
+  use model_data, only: model_t
+  implicit none
+  private
+  public :: make_nodal, find_all_areas
+
+contains
+
+  !> Work space of the forces on nodes.
+  subroutine make_nodal(pairing)
+    class(pairing_t), intent(inout) :: pairing
+    integer :: n, m
+    n = size(pairing%side(1)%node)
+    m = size(pairing%side(2)%node)
+    allocate (pairing%nodal)
+    associate (nodal => pairing%nodal)
+      nodal%node = [pairing%side(1)%node, pairing%side(2)%node]
+      nodal%first = [0, n]
+      allocate (nodal%side(n + m), nodal%area(n + m))
+      allocate (nodal%force(2, n + m), nodal%before(2, n + m), nodal%normal(n + m))
+      allocate (nodal%gap(n + m), nodal%slip(n + m), nodal%status(n + m))
+      nodal%side(1:n) = 1
+      nodal%side(n + 1:) = 2
+      nodal%force = zero
+      nodal%before = zero
+      nodal%normal = zero
+      nodal%gap = no_gap
+      nodal%slip = zero
+      nodal%status = contact_open
+      nodal%area = zero
+    end associate
+  end subroutine make_nodal
+
+  !> Areas of all pairings that keep forces on nodes.
+  subroutine find_all_areas(model, contact, u)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :)
+    integer :: p
+    do p = 1, size(contact%pairing)
+      if (allocated(contact%pairing(p)%item%nodal)) &
+          call find_areas(model, contact%pairing(p)%item, u)
+    end do
+  end subroutine find_all_areas
+
+  !> Area of every near node at X + U: the integral of its shape function over the part of its edges
+  !> that edges of the other side cover, times the thickness. Where nearly nothing covers a node
+  !> (a tip on a face), and at walls, half of the edges that face.
+  subroutine find_areas(model, pairing, u)
+    type(model_t), intent(in) :: model
+    class(pairing_t), intent(inout) :: pairing
+    real(wp), intent(in) :: u(:, :)
+    integer :: s, t
+    pairing%nodal%area = zero
+    do s = 1, 2
+      if (size(pairing%side(s)%node) == 0) cycle
+      t = 3 - s
+      if (size(pairing%side(t)%node) == 0) t = s
+      associate (n => size(pairing%side(s)%node), first => pairing%nodal%first(s))
+        call cover_side(model, pairing%side(s), pairing%side(t), u, pairing%is_wall, &
+            pairing%nodal%gap(first + 1:first + n) < no_gap .or. &
+            pairing%nodal%normal(first + 1:first + n) > zero, &
+            pairing%nodal%area(first + 1:first + n))
+      end associate
+    end do
+  end subroutine find_areas
+
+  subroutine cover_side(model, own, other, u, is_wall, is_near, area)
+    type(model_t), intent(in) :: model
+    type(surface_t), intent(in) :: own, other
+    real(wp), intent(in) :: u(:, :)
+    logical, intent(in) :: is_wall, is_near(:)
+    real(wp), intent(inout) :: area(:)
+    real(wp) :: whole(size(own%node)), low(size(other%length)), high(size(other%length))
+    real(wp) :: share(2), thickness
+    integer :: e, k, n
+    whole = zero
+    do e = 1, size(own%length)
+      if (.not. any(is_near(own%index(own%end_node(:, e))))) cycle
+      thickness = thickness_of(model, own%part(e))
+      n = 0
+      if (.not. is_wall) call covering(own, other, e, model%x, u, low, high, n)
+      call integrate(low, high, n, share)
+      do k = 1, 2
+        associate (i => own%index(own%end_node(k, e)))
+          area(i) = area(i) + share(k)*own%length(e)*thickness
+          whole(i) = whole(i) + half*own%length(e)*thickness
+        end associate
+      end do
+    end do
+    where (area < 1.0e-3_wp*whole) area = whole
+  end subroutine cover_side
+
+  pure real(wp) function thickness_of(model, part)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: part
+    integer :: p
+    thickness_of = one
+    do p = 1, size(model%part)
+      if (model%part(p)%id == part) thickness_of = model%part(p)%thickness
+    end do
+  end function thickness_of
+
+  !> Parts of edge e, in its local coordinate, that edges of the other side cover: those that face
+  !> it within half an edge.
+  subroutine covering(own, other, e, x, u, low, high, n)
+    type(surface_t), intent(in) :: own, other
+    integer, intent(in) :: e
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(inout) :: low(:), high(:)
+    integer, intent(out) :: n
+    real(wp) :: normal(2), d(2), s(2), g(2), length
+    integer :: f, k
+    n = 0
+    associate (a => own%end_node(1, e), b => own%end_node(2, e))
+      normal = normal_between(x, u, a, b, .false.)
+      d = difference(x, u, b, a)
+      length = sqrt(sum(d**2))
+      do f = 1, size(other%length)
+        do k = 1, 2
+          d = difference(x, u, other%end_node(k, f), a)
+          s(k) = (-normal(2)*d(1) + normal(1)*d(2))/length
+          g(k) = normal(1)*d(1) + normal(2)*d(2)
+        end do
+        if (max(s(1), s(2)) <= zero .or. min(s(1), s(2)) >= one) cycle
+        if (min(abs(g(1)), abs(g(2))) > half*length) cycle
+        if (dot_product(normal, normal_between(x, u, other%end_node(1, f), &
+            other%end_node(2, f), .false.)) > -0.7_wp) cycle
+        n = n + 1
+        low(n) = max(zero, minval(s))
+        high(n) = min(one, maxval(s))
+      end do
+    end associate
+  end subroutine covering
+
+  !> Integrals of 1 - s and s over the union of intervals.
+  pure subroutine integrate(low, high, n, share)
+    real(wp), intent(inout) :: low(:), high(:)
+    integer, intent(in) :: n
+    real(wp), intent(out) :: share(2)
+    real(wp) :: a, b, end
+    integer :: i, j
+    share = zero
+    do i = 2, n      ! by their beginnings
+      a = low(i)
+      b = high(i)
+      j = i - 1
+      do while (j > 0)
+        if (low(j) <= a) exit
+        low(j + 1) = low(j)
+        high(j + 1) = high(j)
+        j = j - 1
+      end do
+      low(j + 1) = a
+      high(j + 1) = b
+    end do
+    end = zero
+    do i = 1, n
+      a = max(low(i), end)
+      b = max(high(i), a)
+      share(2) = share(2) + half*(b**2 - a**2)
+      share(1) = share(1) + (b - a) - half*(b**2 - a**2)
+      end = max(end, b)
+    end do
+  end subroutine integrate
+
+end module contact_area

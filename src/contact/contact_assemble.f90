@@ -1,0 +1,224 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The rows of a step, of all pairings: those at its start, and those that its solved end shows
+!> to be missing.
+module contact_assemble
+  use base_kinds, only: wp, zero, one
+  use contact_features, only: smooth_angle
+  use contact_pairing, only: late_t
+  use contact_rows, only: rows_t, start_rows, add_row, copy_row, swap_rows, same_geometry, &
+      carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, row_wall
+  use contact_types, only: contact_t
+  use model_data, only: model_t
+  implicit none
+  private
+  public :: find_rows, add_missing_rows, count_rows
+
+  !> Most rounds in which frames are set anew.
+  integer, parameter :: most_late_rounds = 3
+
+contains
+
+  !> Rows at displacement u (2, nodes) for the free motion x_free (2, m) of the interface. W stays
+  !> where their geometry is that of the last step. Rows with an allowance that pushed in the last
+  !> step are among them from the start.
+  subroutine find_rows(model, contact, u, x_free)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :), x_free(:, :)
+    integer :: p, k
+    do k = 1, size(contact%interface_node)
+      contact%free(:, contact%interface_node(k)) = x_free(:, k)
+    end do
+    contact%late_rounds = 0
+    call start_rows(contact%next)
+    call start_rows(contact%spare)
+    do p = 1, size(contact%pairing)
+      if (contact%acts(p) .and. contact%pairing(p)%item%listed > 0) &
+          call contact%pairing(p)%item%append_rows(model, u, contact%free, contact%next, &
+          contact%spare)
+    end do
+    if (contact%solves_without_contact < 3) then
+      call carry_reactions(contact%rows, contact%next)
+      if (contact%spare%n > 0) call carry_reactions(contact%rows, contact%spare)
+      if (any(contact%spare%r(1, :contact%spare%n) > zero)) call take_spare(contact, &
+          contact%spare%r(1, :contact%spare%n) > zero, contact%next)
+    end if
+    call use_next(contact)
+    if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
+  end subroutine find_rows
+
+  !> contact%next becomes the list of rows.
+  subroutine use_next(contact)
+    type(contact_t), intent(inout) :: contact
+    if (contact%w_is_current) &
+        contact%w_is_current = same_geometry(contact%rows, contact%next)
+    if (contact%w_is_current) contact%next%is_rigid(:contact%next%n) = &
+        contact%rows%is_rigid(:contact%rows%n)
+    call swap_rows(contact%rows, contact%next)
+    call find_slots(contact%slot, contact%rows)
+  end subroutine use_next
+
+  !> Puts the chosen spare rows into a list, at their places.
+  subroutine take_spare(contact, is_taken, rows)
+    type(contact_t), intent(inout) :: contact
+    logical, intent(in) :: is_taken(:)
+    type(rows_t), allocatable, intent(inout) :: rows
+    type(rows_t), allocatable :: merged, left
+    integer :: a, b
+    allocate (merged, left)
+    call start_rows(merged, rows%n + count(is_taken))
+    call start_rows(left, contact%spare%n)
+    a = 1
+    do b = 1, contact%spare%n
+      if (.not. is_taken(b)) then
+        call copy_row(contact%spare, b, left)
+        cycle
+      end if
+      do while (a <= rows%n)
+        if (.not. comes_before(rows%key(:, a), contact%spare%key(:, b))) exit
+        call copy_row(rows, a, merged)
+        a = a + 1
+      end do
+      call copy_row(contact%spare, b, merged)
+    end do
+    do a = a, rows%n
+      call copy_row(rows, a, merged)
+    end do
+    call swap_rows(rows, merged)
+    call swap_rows(contact%spare, left)
+  end subroutine take_spare
+
+  !> After a solve with force (2, m) on the interface: spare rows that are below their allowance
+  !> come first; where there is none, nodes that are too deep at the end of the step, and rows
+  !> whose frames have turned too much. is_complete: nothing was missing.
+  subroutine add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :), x_free(:, :), force(:, :)
+    logical, intent(in) :: acting
+    logical, intent(out) :: is_complete
+    logical :: is_below(contact%spare%n)
+    real(wp) :: x(2, size(x_free, 2)), d(2)
+    integer :: b, n
+    is_complete = .true.
+    if (contact%spare%n == 0 .and. .not. acting) return
+    x = x_free
+    if (acting) x = x + reshape(matmul(contact%schur_inverse, reshape(force, [size(force)])), &
+        shape(x))
+    associate (spare => contact%spare)
+      do b = 1, spare%n
+        d = relative_displacement(spare, b, spare%slot, x)
+        is_below(b) = spare%gap(b) + d(1) < -spare%allowance(b)
+      end do
+    end associate
+    if (any(is_below)) then
+      is_complete = .false.
+      contact%tally%late_rows = contact%tally%late_rows + count(is_below)
+      call take_spare(contact, is_below, contact%rows)
+      contact%w_is_current = .false.
+      call find_slots(contact%slot, contact%rows)
+      if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
+    else if (acting) then
+      call place_end(contact, u, x)
+      call find_late(model, contact, u, n)
+      if (n == 0 .or. contact%late_rounds == most_late_rounds) return
+      contact%late_rounds = contact%late_rounds + 1
+      is_complete = .false.
+      call use_late(contact, n)
+    end if
+  end subroutine add_missing_rows
+
+  !> Displacement of the interface nodes at the end of a step of motion x (2, m).
+  pure subroutine place_end(contact, u, x)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :), x(:, :)
+    integer :: k
+    do k = 1, size(contact%interface_node)
+      associate (i => contact%interface_node(k))
+        contact%u_end(:, i) = u(:, i) + x(:, k)
+      end associate
+    end do
+  end subroutine place_end
+
+  subroutine find_late(model, contact, u, n)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :)
+    integer, intent(out) :: n
+    integer :: p
+    n = 0
+    do p = 1, size(contact%pairing)
+      if (contact%acts(p) .and. contact%pairing(p)%item%listed > 0) &
+          call contact%pairing(p)%item%find_late(model, u, contact%u_end, contact%rows, &
+          contact%late, n)
+    end do
+  end subroutine find_late
+
+  !> The first n late rows: new ones, and new frames of rows that keep their reactions.
+  subroutine use_late(contact, n)
+    type(contact_t), intent(inout) :: contact
+    integer, intent(in) :: n
+    integer :: a, k
+    call start_rows(contact%next)
+    a = 1
+    do k = 1, n
+      associate (late => contact%late(k))
+        do while (a <= contact%rows%n)
+          if (comes_before(late%key(1:3), contact%rows%key(1:3, a))) exit
+          if (.not. any(contact%late(:n)%row == a)) call copy_row(contact%rows, a, contact%next)
+          a = a + 1
+        end do
+        call add_late(contact, late)
+      end associate
+    end do
+    do a = a, contact%rows%n
+      if (.not. any(contact%late(:n)%row == a)) call copy_row(contact%rows, a, contact%next)
+    end do
+    call swap_rows(contact%rows, contact%next)
+    call find_slots(contact%slot, contact%rows)
+    contact%w_is_current = .false.
+  end subroutine use_late
+
+  subroutine add_late(contact, late)
+    type(contact_t), intent(inout) :: contact
+    type(late_t), intent(in) :: late
+    real(wp) :: allowance, mu
+    mu = contact%pairing(late%key(1))%item%mu
+    allowance = late%allowance
+    if (late%row > 0) allowance = contact%rows%allowance(late%row)
+    call add_row(contact%next, late%key, late%point(:late%points), &
+        late%weight(:late%points), late%normal, late%gap, mu, late%length, late%kind, allowance)
+    if (late%row > 0) then
+      contact%tally%new_frames = contact%tally%new_frames + 1
+      call take_reactions(contact%rows, late%row, contact%next, contact%next%n)
+    else
+      contact%tally%late_rows = contact%tally%late_rows + 1
+      call drop_spare(contact, late)
+    end if
+  end subroutine add_late
+
+  !> A spare row that says the same as a late one is not needed any more.
+  subroutine drop_spare(contact, late)
+    type(contact_t), intent(inout) :: contact
+    type(late_t), intent(in) :: late
+    integer :: b
+    do b = 1, contact%spare%n
+      if (any(contact%spare%key(1:3, b) /= late%key(1:3))) cycle
+      if (dot_product(contact%spare%normal(:, b), late%normal) > cos(smooth_angle)) &
+          contact%spare%allowance(b) = huge(one)
+    end do
+  end subroutine drop_spare
+
+  !> Rows of a contact solve by kind, for the log.
+  pure subroutine count_rows(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: a
+    associate (rows => contact%rows, tally => contact%tally)
+      do a = 1, rows%n
+        tally%rows(rows%kind(a)) = tally%rows(rows%kind(a)) + 1
+        if (rows%allowance(a) > zero) tally%allowances = tally%allowances + 1
+      end do
+    end associate
+  end subroutine count_rows
+
+end module contact_assemble

@@ -1,0 +1,234 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Which places get exact rows (gap >= 0) and which an allowance (gap >= -delta, a row only
+!> when the solved step goes below). Two exact rows that say nearly the same make W singular:
+!> locally the finer side is exact, and of two nodes that meet each other one.
+module contact_grade
+  use base_kinds, only: wp, zero, one
+  use contact_features, only: normal_between, smooth_angle, degree
+  use contact_places, only: place_t, allowance_of, size_of_node, corner
+  use contact_surface, only: surface_t
+  implicit none
+  private
+  public :: grade_place, settle_twins, points_of_place
+
+  integer, parameter, public :: finer_auto = 0, finer_both = 3   !< 1, 2: that side
+
+  real(wp), parameter :: equal_size = 1.0e-6_wp
+  real(wp), parameter :: flat = 3.0_wp*degree      !< a face that lies on another
+  real(wp), parameter :: twin = 0.1_wp             !< edges: a node that meets a node
+  real(wp), parameter :: sharper = 1.0_wp*degree
+
+contains
+
+  !> Grade and allowance of a place of row k of the nodes of `own`. finer: the side whose nodes
+  !> are exact, by the deck (finer_auto: by their sizes).
+  pure subroutine grade_place(own, obstacle, k, finer, x, u, is_reference, place)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, finer
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    logical, intent(in) :: is_reference
+    type(place_t), intent(inout) :: place
+    real(wp) :: own_size
+    own_size = size_of_node(own, k, place%normal, x, u, is_reference)
+    place%allowance = &
+        allowance_of(own, k, place%normal, place%length, x, u, is_reference)
+    if (finer == finer_both .or. .not. own_size > zero) then
+      place%is_exact = .true.
+    else if (finer /= finer_auto) then
+      place%is_exact = place%side == finer
+    else if (abs(own_size - place%length) <= equal_size*place%length) then
+      place%is_exact = wins_tie(own, obstacle, k, place)
+    else
+      place%is_exact = own_size < place%length
+    end if
+    if (place%is_exact .or. .not. own%turn(k) > corner) return
+    place%is_exact = .not. lies_flat(own, k, place, x, u, is_reference)
+  end subroutine grade_place
+
+  !> Of equal sizes SURFA is exact; within one surface the part of lower id, then the body of
+  !> lower number, then the node.
+  pure logical function wins_tie(own, obstacle, k, place)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k
+    type(place_t), intent(in) :: place
+    integer :: edge
+    wins_tie = place%side == 1
+    if (.not. wins_tie) return
+    if (size(own%node) /= size(obstacle%node)) return
+    if (any(own%node /= obstacle%node)) return
+    edge = maxval(own%node_edge(:, k))
+    if (own%part_id(edge) /= obstacle%part_id(place%edge)) then
+      wins_tie = own%part_id(edge) < obstacle%part_id(place%edge)
+    else if (own%body(edge) /= obstacle%body(place%edge)) then
+      wins_tie = own%body(edge) < obstacle%body(place%edge)
+    else
+      wins_tie = place%node < obstacle%end_node(1, place%edge)
+    end if
+  end function wins_tie
+
+  !> A corner whose own face lies on the edge, no shorter than the edge: the finer nodes of the
+  !> other side stand within reach of it.
+  pure logical function lies_flat(own, k, place, x, u, is_reference)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k
+    type(place_t), intent(in) :: place
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    logical, intent(in) :: is_reference
+    real(wp) :: n(2)
+    integer :: s
+    lies_flat = .false.
+    if (place%vertex > 0) return
+    do s = 1, 2
+      if (s == 1) n = normal_between(x, u, own%chain(1, k), own%node(k), is_reference)
+      if (s == 2) n = normal_between(x, u, own%node(k), own%chain(2, k), is_reference)
+      if (-dot_product(n, place%normal) >= cos(flat) .and. &
+          place%length <= own%chain_length(s, k)*(one + equal_size)) lies_flat = .true.
+    end do
+  end function lies_flat
+
+  !> Two nodes that meet each other: the more convex one stays, then that of the shorter edges,
+  !> then SURFA's; its normal is the mean of the two, so that a mirrored scene is mirrored. The
+  !> other keeps an allowance. first (2): places of side 1 end where those of side 2 begin.
+  pure subroutine settle_twins(side, is_self, x, u, is_reference, place, n_first, n)
+    type(surface_t), intent(in) :: side(2)
+    logical, intent(in) :: is_self, is_reference
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    integer, intent(in) :: n_first, n
+    type(place_t), intent(inout) :: place(:)
+    integer :: a, b, vertex, low
+    do a = 1, n_first
+      vertex = vertex_met(side(merge(1, 2, is_self)), place(a))
+      if (vertex == 0) cycle
+      low = merge(a, n_first, is_self)
+      b = first_place_of(place, low + 1, n, vertex)
+      do while (b > 0 .and. b <= n)
+        if (place(b)%node /= vertex) exit
+        if (is_twin(side(1), place(a), place(b))) then
+          call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, is_reference, place(a), &
+              place(b))
+          exit
+        end if
+        b = b + 1
+      end do
+    end do
+  end subroutine settle_twins
+
+  !> The vertex of the obstacle that a place is nearly at; 0 = none.
+  pure integer function vertex_met(obstacle, place)
+    type(surface_t), intent(in) :: obstacle
+    type(place_t), intent(in) :: place
+    vertex_met = place%vertex
+    if (vertex_met > 0) return
+    if (place%s*obstacle%length(place%edge) <= twin*place%length) then
+      vertex_met = obstacle%end_node(1, place%edge)
+    else if ((one - place%s)*obstacle%length(place%edge) <= twin*place%length) then
+      vertex_met = obstacle%end_node(2, place%edge)
+    end if
+  end function vertex_met
+
+  !> The first place of a node among those from low to high, which are sorted by node; 0 = none.
+  pure integer function first_place_of(place, low, high, node)
+    type(place_t), intent(in) :: place(:)
+    integer, intent(in) :: low, high, node
+    integer :: a, b, m
+    a = low
+    b = high
+    do while (a <= b)
+      m = (a + b)/2
+      if (place(m)%node < node) then
+        a = m + 1
+      else
+        b = m - 1
+      end if
+    end do
+    first_place_of = 0
+    if (a > high) return
+    if (place(a)%node == node) first_place_of = a
+  end function first_place_of
+
+  pure logical function is_twin(side_1, p, q)
+    type(surface_t), intent(in) :: side_1
+    type(place_t), intent(in) :: p, q
+    is_twin = .false.
+    if (dot_product(p%normal, q%normal) >= -cos(smooth_angle)) return
+    is_twin = distance_at(side_1, q, p%node) <= twin*min(p%length, q%length)
+  end function is_twin
+
+  !> Distance along the boundary between a place and a vertex [L].
+  pure real(wp) function distance_at(surface, place, vertex)
+    type(surface_t), intent(in) :: surface
+    type(place_t), intent(in) :: place
+    integer, intent(in) :: vertex
+    distance_at = huge(one)
+    if (place%vertex > 0) then
+      if (place%vertex == vertex) distance_at = zero
+    else if (surface%end_node(1, place%edge) == vertex) then
+      distance_at = place%s*surface%length(place%edge)
+    else if (surface%end_node(2, place%edge) == vertex) then
+      distance_at = (one - place%s)*surface%length(place%edge)
+    end if
+  end function distance_at
+
+  pure subroutine settle_pair(side_a, side_b, x, u, is_reference, a, b)
+    type(surface_t), intent(in) :: side_a, side_b
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    logical, intent(in) :: is_reference
+    type(place_t), intent(inout) :: a, b
+    real(wp) :: size_a, size_b, turn_a, turn_b
+    logical :: a_stays, is_exact
+    turn_a = side_a%turn(side_a%index(a%node))
+    turn_b = side_b%turn(side_b%index(b%node))
+    size_a = size_of_node(side_a, side_a%index(a%node), a%normal, x, u, is_reference)
+    size_b = size_of_node(side_b, side_b%index(b%node), b%normal, x, u, is_reference)
+    a_stays = .true.
+    if (abs(turn_a - turn_b) > sharper) then
+      a_stays = turn_a > turn_b
+    else if (abs(size_a - size_b) > equal_size*max(size_a, size_b)) then
+      a_stays = size_a < size_b
+    else if (a%side == b%side) then
+      a_stays = a%is_exact .or. .not. b%is_exact
+    end if
+    is_exact = a%is_exact .or. b%is_exact
+    a%is_exact = a_stays .and. is_exact
+    b%is_exact = .not. a_stays .and. is_exact
+    if (a_stays) call take_mean(side_b, x, u, b%normal, a)
+    if (.not. a_stays) call take_mean(side_a, x, u, a%normal, b)
+  end subroutine settle_pair
+
+  !> normal = mean of it and of the other's, reversed; gap anew.
+  pure subroutine take_mean(obstacle, x, u, other, place)
+    type(surface_t), intent(in) :: obstacle
+    real(wp), intent(in) :: x(:, :), u(:, :), other(2)
+    type(place_t), intent(inout) :: place
+    real(wp) :: n(2), weight(3), d(2), e(2)
+    integer :: point(3), points
+    n = place%normal - other
+    n = n/sqrt(n(1)**2 + n(2)**2)
+    if (abs(n(1) - place%normal(1)) + abs(n(2) - place%normal(2)) < 1.0e-12_wp) return
+    place%normal = n
+    call points_of_place(obstacle, place, point, weight, points)
+    d = x(:, point(1)) - x(:, point(2))
+    e = u(:, point(1)) - u(:, point(2))
+    if (points == 3) d = d + weight(3)*(x(:, point(3)) - x(:, point(2)))
+    if (points == 3) e = e + weight(3)*(u(:, point(3)) - u(:, point(2)))
+    place%gap = dot_product(n, d) + dot_product(n, e)
+  end subroutine take_mean
+
+  !> Points and weights of the row of a place.
+  pure subroutine points_of_place(obstacle, place, point, weight, points)
+    type(surface_t), intent(in) :: obstacle
+    type(place_t), intent(in) :: place
+    integer, intent(out) :: point(3), points
+    real(wp), intent(out) :: weight(3)
+    if (place%vertex > 0) then
+      point = [place%node, place%vertex, place%vertex]
+      weight = [one, -one, zero]
+      points = 2
+    else
+      point = [place%node, obstacle%end_node(:, place%edge)]
+      weight = [one, place%s - one, -place%s]
+      points = 3
+    end if
+  end subroutine points_of_place
+
+end module contact_grade

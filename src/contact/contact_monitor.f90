@@ -1,0 +1,138 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The monitor of overlap: what it finds in bodies that overlap is told as a warning or ends the
+!> run. It asks the boundaries, not the rows.
+module contact_monitor
+  use base_kinds, only: wp, zero
+  use base_status, only: status_t, fail, status_numerical, status_deck
+  use base_strings, only: to_text
+  use contact_pairing, only: pairing_t, overlap_t, no_gap
+  use contact_types, only: contact_t
+  use model_data, only: model_t
+  implicit none
+  private
+  public :: check_listed, check_whole, check_start, check_all
+
+  !> Overlaps in shares of the shorter edge: beyond the first a warning, beyond the second the
+  !> bodies have passed through each other.
+  real(wp), parameter :: warned = 1.0e-2_wp, passed = 0.5_wp
+
+contains
+
+  !> True gaps of the listed nodes at the end of a step u, in every step.
+  subroutine check_listed(model, contact, u, cycle, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :)
+    integer, intent(in) :: cycle
+    type(status_t), intent(inout) :: status
+    integer :: p
+    do p = 1, size(contact%pairing)
+      if (.not. contact%acts(p)) cycle
+      associate (pairing => contact%pairing(p)%item)
+        pairing%sums%smallest_gap = no_gap
+        if (allocated(pairing%nodal)) pairing%nodal%gap = no_gap
+        pairing%overlap = overlap_t()
+        if (pairing%listed == 0) cycle
+        call pairing%measure(model, u, pairing%overlap)
+        call judge(model, contact, pairing, cycle, status)
+      end associate
+    end do
+  end subroutine check_listed
+
+  !> All nodes and edges of pairing p at u.
+  subroutine check_whole(model, contact, p, u, cycle, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    integer, intent(in) :: p, cycle
+    real(wp), intent(in) :: u(:, :)
+    type(status_t), intent(inout) :: status
+    real(wp) :: accepted
+    associate (pairing => contact%pairing(p)%item)
+      pairing%overlap = overlap_t()
+      call pairing%measure_whole(model, u, pairing%overlap, accepted)
+      call judge(model, contact, pairing, cycle, status)
+    end associate
+  end subroutine check_whole
+
+  !> The same for every pairing that acts: at output times and at the end.
+  subroutine check_all(model, contact, u, cycle, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: u(:, :)
+    integer, intent(in) :: cycle
+    type(status_t), intent(inout) :: status
+    integer :: p
+    do p = 1, size(contact%pairing)
+      if (contact%acts(p) .and. contact%pairing(p)%item%is_born) &
+          call check_whole(model, contact, p, u, cycle, status)
+    end do
+  end subroutine check_all
+
+  !> Counts the overlap of a pairing; fails where it has passed through.
+  subroutine judge(model, contact, pairing, cycle, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    class(pairing_t), intent(inout) :: pairing
+    integer, intent(in) :: cycle
+    type(status_t), intent(inout) :: status
+    associate (o => pairing%overlap, tally => contact%tally)
+      if (.not. o%depth > zero) return
+      pairing%sums%penetration = max(pairing%sums%penetration, o%depth)
+      tally%overlap = max(tally%overlap, o%depth)
+      if (o%share > warned .and. tally%overlap_step < 0) tally%overlap_step = cycle
+      if (o%share > tally%overlap_share) tally%overlap_node = o%node
+      tally%overlap_share = max(tally%overlap_share, o%share)
+      if (o%share > passed) call fail(status, status_numerical, place_of(model, pairing)// &
+          ': it has passed through the surface', hint='fewer or stiffer elements, or a '// &
+          'smaller step where a body moves further than its thickness in one')
+    end associate
+  end subroutine judge
+
+  !> "node N is D deep in part P", "edges cross at node N", "is D behind wall W".
+  function place_of(model, pairing) result(text)
+    type(model_t), intent(in) :: model
+    class(pairing_t), intent(in) :: pairing
+    character(:), allocatable :: text
+    associate (o => pairing%overlap)
+      text = 'node '//to_text(model%node_id(o%node))
+      if (pairing%is_wall) then
+        text = text//' is '//to_text(o%depth)//' behind wall '//to_text(pairing%id)
+      else if (o%is_crossing) then
+        text = 'an edge at '//text//' crosses one of part '//to_text(o%part)//', '// &
+            to_text(o%depth)//' deep'
+      else
+        text = text//' is '//to_text(o%depth)//' deep in the other body, part '// &
+            to_text(o%part)
+      end if
+    end associate
+  end function place_of
+
+  !> Bodies must not overlap when their contact begins, but for the digits of the deck: an error
+  !> at t = 0, a failure at a birth.
+  subroutine check_start(model, contact, p, u, cycle, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    integer, intent(in) :: p, cycle
+    real(wp), intent(in) :: u(:, :)
+    type(status_t), intent(inout) :: status
+    real(wp) :: accepted
+    associate (pairing => contact%pairing(p)%item)
+      pairing%overlap = overlap_t()
+      call pairing%measure_whole(model, u, pairing%overlap, accepted)
+      if (pairing%overlap%depth > accepted) then
+        if (cycle == 0) then
+          call fail(status, status_deck, 'initial penetration: '//place_of(model, pairing)// &
+              ' at the start', hint='open the gap; PENTOL of *BIPACT_CONTACT accepts more'// &
+              ' as a touch (it is a share of the edge)')
+        else
+          call fail(status, status_numerical, place_of(model, pairing)// &
+              ': the contact is born overlapped', hint='the bodies must be apart at TBIRTH')
+        end if
+      else if (pairing%overlap%depth > contact%penetration_tolerance &
+          *max(pairing%side(1)%mean_length, tiny(accepted))) then
+        pairing%accepted_overlap = pairing%overlap%depth
+      end if
+    end associate
+  end subroutine check_start
+
+end module contact_monitor

@@ -1,0 +1,512 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The pairing NODE: nodes of both sides are watched against the edges of the other. Within one
+!> surface of several bodies (single surface) every node is watched against all other edges.
+module contact_node
+  use base_archive, only: archive_t, archive_restore
+  use base_kinds, only: wp, zero, one, half
+  use contact_features, only: gap_to_place, smooth_angle
+  use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
+  use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
+  use contact_overlap, only: true_gap, open_gap, update_front, deepest_node, deepest_crossing
+  use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
+  use contact_places, only: place_t, sight_t, view_t, find_places, size_sight
+  use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
+  use contact_surface, only: surface_t
+  use contact_tree, only: tree_t, build_tree, refit_tree
+  use model_data, only: model_t
+  implicit none
+  private
+
+  type, extends(pairing_t), public :: pairing_node_t
+    integer :: finer = finer_auto        !< side whose nodes are exact, by the deck
+    logical :: is_self = .false.         !< side(1) against itself
+    logical :: may_share = .false.       !< nodes may belong to both sides
+    logical, allocatable :: leaves_out(:, :)   !< (parts, parts) do not touch; or empty
+    type(tree_t) :: tree(2)
+    type(near_t) :: near(2)              !< nodes of each side
+    type(sight_t) :: sight               !< work space of one node
+    type(place_t), allocatable :: place(:)
+    integer :: places = 0
+  contains
+    procedure :: list => node_list
+    procedure :: mark_interface => node_mark_interface
+    procedure :: mark_contact_nodes => node_mark_contact_nodes
+    procedure :: append_rows => node_append_rows
+    procedure :: find_late => node_find_late
+    procedure :: measure => node_measure
+    procedure :: measure_whole => node_measure_whole
+    procedure :: exchange => node_exchange
+  end type pairing_node_t
+
+  !> A late row is one whose gap at the end of the step is below this many allowances.
+  real(wp), parameter :: too_deep = 1.5_wp
+
+contains
+
+  !> The surface that the nodes of a side face.
+  pure integer function facing_side(this, s)
+    type(pairing_node_t), intent(in) :: this
+    integer, intent(in) :: s
+    facing_side = merge(1, 3 - s, this%is_self)
+  end function facing_side
+
+  subroutine node_list(this, model, u, reach)
+    class(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :), reach
+    real(wp) :: distance
+    logical :: turned, some_turned
+    integer :: s
+    call place_trees(this, model%x, u)
+    this%safe_distance = huge(one)
+    some_turned = .false.
+    do s = 1, merge(1, 2, this%is_self)
+      associate (obstacle => this%side(facing_side(this, s)))
+        call list_near(this%side(s), obstacle, this%tree(facing_side(this, s)), model%x, u, &
+            reach, this%is_self .or. this%may_share, this%leaves_out, this%near(s), distance, &
+            turned)
+      end associate
+      this%safe_distance = min(this%safe_distance, distance)
+      some_turned = some_turned .or. turned
+    end do
+    this%turn_margin = merge(turn_limit, huge(one), some_turned)
+    this%listed = sum(this%near%n)
+    call size_places(this)
+  end subroutine node_list
+
+  !> Work space for the lists as they are.
+  subroutine size_places(this)
+    type(pairing_node_t), intent(inout) :: this
+    integer :: n
+    call size_sight(max(size(this%side(1)%length), size(this%side(2)%length)), &
+        max(longest_list(this%near(1)), longest_list(this%near(2))), this%sight)
+    n = 3*this%listed + 3
+    if (allocated(this%place)) then
+      if (size(this%place) >= n) return
+      deallocate (this%place)
+    end if
+    allocate (this%place(2*n))
+  end subroutine size_places
+
+  !> The trees of both sides at X + U.
+  subroutine place_trees(this, x, u)
+    type(pairing_node_t), intent(inout) :: this
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), allocatable :: a(:, :), b(:, :)
+    integer :: s
+    do s = 1, merge(1, 2, this%is_self)
+      associate (e => this%side(s)%end_node)
+        a = x(:, e(1, :)) + u(:, e(1, :))
+        b = x(:, e(2, :)) + u(:, e(2, :))
+      end associate
+      if (.not. allocated(this%tree(s)%item)) call build_tree(a, b, this%tree(s))
+      call refit_tree(a, b, this%tree(s))
+    end do
+  end subroutine place_trees
+
+  !> Near nodes and the nodes of their edges, with one more edge on either side, so that sliding
+  !> does not outgrow the interface at once.
+  subroutine node_mark_interface(this, model, taken)
+    class(pairing_node_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    logical, intent(inout) :: taken(:)
+    integer :: i, j, s, side, next
+    do side = 1, merge(1, 2, this%is_self)
+      associate (near => this%near(side), obstacle => this%side(facing_side(this, side)))
+        do i = 1, near%n
+          taken(this%side(side)%node(near%node(i))) = .true.
+          do j = near%first(i), near%first(i + 1) - 1
+            taken(obstacle%end_node(:, near%edge(j))) = .true.
+            do s = 1, 2
+              next = obstacle%neighbour(s, near%edge(j))
+              if (next == 0) cycle
+              if (dot_product(obstacle%normal(:, next), &
+                  obstacle%normal(:, near%edge(j))) < half) cycle
+              taken(obstacle%end_node(:, next)) = .true.
+            end do
+          end do
+        end do
+      end associate
+    end do
+  end subroutine node_mark_interface
+
+  !> Nodes of edges in front of which, along their normal and within their width, some part of
+  !> the other surface stands.
+  subroutine node_mark_contact_nodes(this, model, taken)
+    class(pairing_node_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    logical, intent(inout) :: taken(:)
+    integer :: s
+    do s = 1, merge(1, 2, this%is_self)
+      call mark_facing(model, this%side(s), this%side(facing_side(this, s)), taken)
+    end do
+  end subroutine node_mark_contact_nodes
+
+  pure subroutine mark_facing(model, surface, other, taken)
+    type(model_t), intent(in) :: model
+    type(surface_t), intent(in) :: surface, other
+    logical, intent(inout) :: taken(:)
+    real(wp) :: d(2), along(2), height(2)
+    integer :: e, f, s
+    do e = 1, size(surface%length)
+      do f = 1, size(other%length)
+        if (dot_product(surface%normal(:, e), other%normal(:, f)) > -0.05_wp) cycle
+        do s = 1, 2
+          d = model%x(:, other%end_node(s, f)) - model%x(:, surface%end_node(1, e))
+          along(s) = surface%normal(1, e)*d(2) - surface%normal(2, e)*d(1)
+          height(s) = dot_product(surface%normal(:, e), d)
+        end do
+        if (maxval(height) < -1.0e-6_wp*surface%length(e)) cycle
+        if (maxval(along) <= 1.0e-6_wp*surface%length(e)) cycle
+        if (minval(along) >= (1.0_wp - 1.0e-6_wp)*surface%length(e)) cycle
+        taken(surface%end_node(:, e)) = .true.
+      end do
+    end do
+  end subroutine mark_facing
+
+  subroutine node_append_rows(this, model, u, free, rows, spare)
+    class(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :), free(:, :)
+    type(rows_t), intent(inout) :: rows, spare
+    type(view_t) :: view
+    integer :: s, n_first
+    this%places = 0
+    if (this%listed == 0) return
+    view%is_reference = this%is_reference
+    view%may_share = this%is_self .or. this%may_share
+    view%reach = 0.25_wp*min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest) &
+        + 2.0_wp*relative_motion(this, free)
+    n_first = 0
+    do s = 1, merge(1, 2, this%is_self)
+      call find_side(this, model, s, u, free, view)
+      if (s == 1) n_first = this%places
+    end do
+    if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u, &
+        this%is_reference, this%place, n_first, this%places)
+    call emit_rows(this, rows, spare)
+  end subroutine node_append_rows
+
+  !> Bound of the motion of any two near nodes relative to each other [L].
+  pure real(wp) function relative_motion(this, free)
+    type(pairing_node_t), intent(in) :: this
+    real(wp), intent(in) :: free(:, :)
+    real(wp) :: mean(2), d(2), spread
+    integer :: s, i
+    mean = zero
+    do s = 1, 2
+      do i = 1, this%near(s)%n
+        mean = mean + free(:, this%side(s)%node(this%near(s)%node(i)))
+      end do
+    end do
+    mean = mean/real(this%listed, wp)
+    spread = zero
+    do s = 1, 2
+      do i = 1, this%near(s)%n
+        d = free(:, this%side(s)%node(this%near(s)%node(i))) - mean
+        spread = max(spread, d(1)**2 + d(2)**2)
+      end do
+    end do
+    relative_motion = 2.0_wp*sqrt(spread)
+  end function relative_motion
+
+  !> Places of the near nodes of a side.
+  subroutine find_side(this, model, s, u, free, view)
+    type(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: s
+    real(wp), intent(in) :: u(:, :), free(:, :)
+    type(view_t), intent(in) :: view
+    real(wp) :: gap
+    integer :: i, edge
+    associate (near => this%near(s), own => this%side(s), &
+        obstacle => this%side(facing_side(this, s)))
+      do i = 1, near%n
+        if (near%distance(i) > view%reach) cycle
+        associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
+          if (.not. obstacle%is_closed) then
+            call open_gap(own, obstacle, near%node(i), list, model%x, u, gap, edge)
+            call update_front(gap, this%penetration_tolerance*obstacle%mean_length, &
+                near%front(i))
+            if (near%front(i) == is_behind) cycle
+          end if
+          call find_places(own, obstacle, near%node(i), list, model%x, u, free, view, &
+              this%sight)
+        end associate
+        call take_places(this, model, s, near%node(i), u, near%distance(i))
+      end do
+    end associate
+  end subroutine find_side
+
+  !> Keeps the places of a node with their grades. A node that is outside has no place that is
+  !> deeper than its allowance: that is the far side of a thin body.
+  subroutine take_places(this, model, s, k, u, distance)
+    type(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: s, k
+    real(wp), intent(in) :: u(:, :), distance
+    type(place_t) :: place
+    integer :: j
+    associate (own => this%side(s), obstacle => this%side(facing_side(this, s)))
+      do j = 1, this%sight%places
+        place = this%sight%place(j)
+        place%side = s
+        call grade_place(own, obstacle, k, this%finer, model%x, u, this%is_reference, place)
+        if (distance > zero .and. place%gap < -place%allowance) cycle
+        if (this%places == size(this%place)) call more_places(this)
+        this%places = this%places + 1
+        this%place(this%places) = place
+      end do
+    end associate
+  end subroutine take_places
+
+  subroutine more_places(this)
+    type(pairing_node_t), intent(inout) :: this
+    type(place_t), allocatable :: longer(:)
+    allocate (longer(2*size(this%place)))
+    longer(:this%places) = this%place(:this%places)
+    call move_alloc(longer, this%place)
+  end subroutine more_places
+
+  !> Rows of the exact places; those of the others are kept apart.
+  subroutine emit_rows(this, rows, spare)
+    type(pairing_node_t), intent(in) :: this
+    type(rows_t), intent(inout) :: rows, spare
+    integer :: j
+    do j = 1, this%places
+      if (this%place(j)%is_exact) then
+        call emit_row(this, this%place(j), rows)
+      else
+        call emit_row(this, this%place(j), spare)
+      end if
+    end do
+  end subroutine emit_rows
+
+  subroutine emit_row(this, place, rows)
+    type(pairing_node_t), intent(in) :: this
+    type(place_t), intent(in) :: place
+    type(rows_t), intent(inout) :: rows
+    real(wp) :: weight(3)
+    integer :: point(3), points
+    call points_of_place(this%side(facing_side(this, place%side)), place, point, weight, points)
+    call add_row(rows, key_of(this, place), point(:points), weight(:points), place%normal, &
+        place%gap, this%mu, place%length, kind_of(place), &
+        merge(zero, place%allowance, place%is_exact))
+  end subroutine emit_row
+
+  pure function key_of(this, place) result(key)
+    type(pairing_node_t), intent(in) :: this
+    type(place_t), intent(in) :: place
+    integer :: key(4)
+    key = [this%number, place%side, place%node, place%edge]
+    if (place%vertex > 0) key(4) = -place%vertex
+  end function key_of
+
+  pure integer function kind_of(place)
+    type(place_t), intent(in) :: place
+    kind_of = row_edge
+    if (place%vertex > 0) kind_of = row_vertex
+    if (place%is_second) kind_of = row_second
+  end function kind_of
+
+  !> Nodes that are deeper at the end of the step than what they may: their places there, as new
+  !> rows or as new frames of the rows they have.
+  subroutine node_find_late(this, model, u0, u1, rows, late, n)
+    class(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u0(:, :), u1(:, :)
+    type(rows_t), intent(in) :: rows
+    type(late_t), intent(inout) :: late(:)
+    integer, intent(inout) :: n
+    type(view_t) :: view
+    real(wp) :: gap
+    integer :: s, i, j, edge
+    view%may_share = this%is_self .or. this%may_share
+    view%is_reference = this%is_reference
+    view%reach = 0.25_wp*min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest)
+    do s = 1, merge(1, 2, this%is_self)
+      associate (near => this%near(s), own => this%side(s), &
+          obstacle => this%side(facing_side(this, s)))
+        do i = 1, near%n
+          associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
+            if (near%front(i) == is_behind) cycle
+            call true_gap(obstacle, list, model%x, u1, own%node(near%node(i)), gap, edge)
+            if (gap >= zero) cycle
+            call find_places(own, obstacle, near%node(i), list, model%x, u1, u1, view, &
+                this%sight)
+          end associate
+          do j = 1, this%sight%places
+            this%sight%place(j)%side = s
+            call grade_place(own, obstacle, near%node(i), this%finer, model%x, u1, &
+                this%is_reference, this%sight%place(j))
+            call judge_late(this, model, u0, this%sight%place(j), rows, late, n)
+          end do
+        end do
+      end associate
+    end do
+  end subroutine node_find_late
+
+  !> A place at the end of the step against the rows of its node.
+  subroutine judge_late(this, model, u0, place, rows, late, n)
+    type(pairing_node_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u0(:, :)
+    type(place_t), intent(in) :: place
+    type(rows_t), intent(in) :: rows
+    type(late_t), intent(inout) :: late(:)
+    integer, intent(inout) :: n
+    integer :: a, found
+    real(wp) :: nearest
+    if (place%gap >= -too_deep*place%allowance .or. n == size(late)) return
+    found = 0
+    nearest = cos(smooth_angle)
+    do a = 1, rows%n
+      if (any(rows%key(1:3, a) /= [this%number, place%side, place%node])) cycle
+      if (dot_product(rows%normal(:, a), place%normal) < nearest) cycle
+      nearest = dot_product(rows%normal(:, a), place%normal)
+      found = a
+    end do
+    if (found > 0) then
+      if (min(rows%gap(found), zero) - place%gap <= place%allowance) return
+    end if
+    n = n + 1
+    late(n)%row = found
+    late(n)%key = key_of(this, place)
+    call points_of_place(this%side(facing_side(this, place%side)), place, late(n)%point, &
+        late(n)%weight, late(n)%points)
+    late(n)%normal = place%normal
+    late(n)%gap = gap_to_place(late(n)%point(:late(n)%points), &
+        late(n)%weight(:late(n)%points), place%normal, model%x, u0)
+    late(n)%allowance = merge(zero, place%allowance, place%is_exact)
+    late(n)%length = place%length
+    late(n)%kind = kind_of(place)
+  end subroutine judge_late
+
+  !> True gaps at the end of a step, the smallest in sums; the deepest overlap.
+  subroutine node_measure(this, model, u, overlap)
+    class(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp) :: gap
+    integer :: s, i, edge
+    do s = 1, merge(1, 2, this%is_self)
+      associate (near => this%near(s), own => this%side(s), &
+          obstacle => this%side(facing_side(this, s)))
+        do i = 1, near%n
+          associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
+            if (obstacle%is_closed) then
+              call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
+            else
+              call open_gap(own, obstacle, near%node(i), list, model%x, u, gap, edge)
+              if (near%front(i) == is_behind) gap = huge(one)
+            end if
+          end associate
+          near%distance(i) = gap
+          if (.not. obstacle%is_closed) near%distance(i) = -huge(one)
+          if (edge == 0) cycle
+          this%sums%smallest_gap = min(this%sums%smallest_gap, gap)
+          if (allocated(this%nodal)) call note_gap(this, s, near%node(i), gap)
+          if (gap < zero) call note_overlap(overlap, -gap, min(obstacle%length(edge), &
+              shortest_of(own, near%node(i), obstacle%length(edge))), &
+              own%node(near%node(i)), obstacle%part_id(edge), .false.)
+        end do
+      end associate
+    end do
+  end subroutine node_measure
+
+  pure subroutine note_gap(this, s, k, gap)
+    type(pairing_node_t), intent(inout) :: this
+    integer, intent(in) :: s, k
+    real(wp), intent(in) :: gap
+    if (gap >= no_gap) return
+    this%nodal%gap(this%nodal%first(s) + k) = gap
+  end subroutine note_gap
+
+  !> The shortest edge of the boundary at a node; that given where there is none.
+  pure real(wp) function shortest_of(own, k, length)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k
+    real(wp), intent(in) :: length
+    shortest_of = length
+    if (all(own%chain(:, k) > 0)) shortest_of = minval(own%chain_length(:, k))
+  end function shortest_of
+
+  !> All nodes and edges of closed sides; of open ones what stands just behind them.
+  subroutine node_measure_whole(this, model, u, overlap, accepted)
+    class(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp), intent(out) :: accepted
+    logical :: found
+    integer :: s, t
+    call place_trees(this, model%x, u)
+    found = .false.
+    do s = 1, merge(1, 2, this%is_self)
+      t = facing_side(this, s)
+      if (this%side(t)%is_closed) then
+        call deepest_node(this%side(s), this%side(t), this%tree(t), model%x, u, this%is_self, &
+            this%leaves_out, overlap, found)
+      else if (.not. this%is_born) then
+        call deepest_before_open(this, model, s, t, u, overlap)
+      end if
+    end do
+    if (.not. found .and. this%side(1)%is_closed .and. this%side(facing_side(this, 1))%is_closed) &
+        call deepest_crossing(this%side(1), this%side(facing_side(this, 1)), &
+        this%tree(facing_side(this, 1)), model%x, u, this%is_self, &
+        this%leaves_out, overlap)
+    accepted = accepted_overlap(this, model%x, u)
+  end subroutine node_measure_whole
+
+  !> Nodes of side s just behind the edges of the open side t.
+  subroutine deepest_before_open(this, model, s, t, u, overlap)
+    type(pairing_node_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: s, t
+    real(wp), intent(in) :: u(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp) :: gap
+    integer :: i, edge
+    associate (near => this%near(s), own => this%side(s), obstacle => this%side(t))
+      do i = 1, near%n
+        call open_gap(own, obstacle, near%node(i), &
+            near%edge(near%first(i):near%first(i + 1) - 1), model%x, u, gap, edge)
+        if (gap < zero) call note_overlap(overlap, -gap, obstacle%length(edge), &
+            own%node(near%node(i)), obstacle%part_id(edge), .false.)
+      end do
+    end associate
+  end subroutine deepest_before_open
+
+  !> What may overlap at the start: the digits of a deck do not give a touch better [L]. Fields of
+  !> ten columns hold seven digits of a coordinate.
+  pure real(wp) function accepted_overlap(this, x, u)
+    type(pairing_node_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp) :: low(2), high(2), p(2), shortest
+    integer :: s, k
+    low = huge(one)
+    high = -huge(one)
+    do s = 1, 2
+      do k = 1, size(this%side(s)%node)
+        p = x(:, this%side(s)%node(k)) + u(:, this%side(s)%node(k))
+        low = min(low, p)
+        high = max(high, p)
+      end do
+    end do
+    shortest = min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest)
+    accepted_overlap = min(1.0e-3_wp*shortest, max(this%penetration_tolerance*shortest, &
+        1.0e-7_wp*half*sqrt(sum((high - low)**2))))
+  end function accepted_overlap
+
+  subroutine node_exchange(this, archive)
+    class(pairing_node_t), intent(inout) :: this
+    type(archive_t), intent(inout) :: archive
+    call archive%exchange('node.turn_margin', this%turn_margin)
+    call archive%exchange('node.listed', this%listed)
+    call exchange_near(archive, this%near(1))
+    call exchange_near(archive, this%near(2))
+    if (archive%mode == archive_restore) call size_places(this)
+  end subroutine node_exchange
+
+end module contact_node

@@ -1,0 +1,504 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The places on an obstacle that a node faces: one for each local minimum of its distance from
+!> the boundary. Before a smooth boundary and at a convex corner there is one, in a notch two.
+!> The space outside a convex corner is a union of half-planes: one row, whose normal the free
+!> motion chooses; that in front of a reflex corner an intersection: both rows.
+module contact_places
+  use base_kinds, only: wp, zero, one, half
+  use contact_features, only: cone_of_node_t, frame_t, edge_frame, local_coordinate, &
+      gap_to_edge, cone_of_node, normal_between, faces, difference, facing_angle, &
+      smooth_angle, end_tolerance, degree
+  use contact_surface, only: surface_t, turn_between
+  implicit none
+  private
+
+  !> A place and the row that it makes.
+  type, public :: place_t
+    integer :: side = 1              !< of the node
+    integer :: node = 0
+    integer :: edge = 0              !< where it lies; that before the vertex
+    integer :: vertex = 0            !< node of the obstacle, 0 = on the edge
+    real(wp) :: s = zero             !< local coordinate on the edge
+    real(wp) :: normal(2) = zero
+    real(wp) :: gap = zero           !< at the start of the step [L]
+    real(wp) :: length = zero        !< of the edge, the shorter of two at a vertex [L]
+    real(wp) :: allowance = zero     !< what it may go below zero [L]
+    logical :: is_exact = .false.    !< gap >= 0; else a row only below the allowance
+    logical :: is_second = .false.   !< not the nearest of its node
+    integer :: row = 0               !< a late place: the row whose frame it replaces
+  end type place_t
+
+  !> Work space: the edges that a node sees.
+  type, public :: sight_t
+    integer, allocatable :: at(:)          !< (edges) number in the list, 0 = not in it
+    integer :: n = 0                       !< with neighbours that were not listed
+    integer, allocatable :: edge(:)
+    type(frame_t), allocatable :: frame(:)
+    real(wp), allocatable :: s(:), gap(:)
+    logical, allocatable :: is_kept(:)     !< its place makes a row
+    type(place_t), allocatable :: place(:) !< found so far, for this node
+    integer :: places = 0
+  end type sight_t
+
+  !> What stays the same for all nodes of a side.
+  type, public :: view_t
+    logical :: is_reference = .false.      !< normals of the reference geometry
+    logical :: may_share = .false.         !< a node may belong to both sides
+    real(wp) :: reach = zero               !< rows are made up to this gap [L]
+  end type view_t
+
+  real(wp), parameter :: deepest = 0.3_wp          !< edges: a deeper node is not before it
+  real(wp), parameter :: narrow = 3.0_wp*degree    !< two faces that lie on each other
+  real(wp), parameter :: empty = 10.0_wp*degree    !< cones that miss each other by more
+  real(wp), parameter :: corner = 20.0_wp*degree   !< a sharper one is watched exactly
+  real(wp), parameter :: never = 1.0e9_wp          !< steps
+  real(wp), parameter :: share_of_edge = 1.0e-3_wp, share_at_corner = 2.0e-4_wp
+
+  public :: find_places, size_sight, is_excluded, allowance_of, size_of_node, corner
+
+contains
+
+  !> Work space for lists of up to n edges of a surface of so many edges.
+  pure subroutine size_sight(edges, n, sight)
+    integer, intent(in) :: edges, n
+    type(sight_t), intent(inout) :: sight
+    integer :: m
+    if (allocated(sight%at)) then
+      if (size(sight%at) >= edges .and. size(sight%edge) >= 3*n) return
+      deallocate (sight%at, sight%edge, sight%frame, sight%s, sight%gap, sight%is_kept, &
+          sight%place)
+    end if
+    m = 3*n + 8
+    allocate (sight%at(edges), sight%edge(m), sight%frame(m), sight%s(m), sight%gap(m))
+    allocate (sight%is_kept(m), sight%place(m))
+    sight%at = 0
+  end subroutine size_sight
+
+  !> True for an edge that the node owns or that touches a neighbour of it.
+  pure logical function is_excluded(surface, edge, node, chain)
+    type(surface_t), intent(in) :: surface
+    integer, intent(in) :: edge, node, chain(2)
+    associate (a => surface%end_node(1, edge), b => surface%end_node(2, edge))
+      is_excluded = a == node .or. b == node .or. a == chain(1) .or. b == chain(1) .or. &
+          a == chain(2) .or. b == chain(2)
+    end associate
+  end function is_excluded
+
+  !> Places of row k of the nodes of `own` on the listed edges of the obstacle, at X + U, into
+  !> sight%place, the nearest first. free (2, nodes): the motion that chooses the normal at a
+  !> convex corner [L].
+  subroutine find_places(own, obstacle, k, list, x, u, free, view, sight)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, list(:)
+    real(wp), intent(in) :: x(:, :), u(:, :), free(:, :)
+    type(view_t), intent(in) :: view
+    type(sight_t), intent(inout) :: sight
+    type(cone_of_node_t) :: cone
+    real(wp) :: own_normal(2, 2)
+    integer :: j
+    sight%places = 0
+    sight%n = 0
+    call cone_of_node(own, k, x, u, view%is_reference, cone, own_normal)
+    if (.not. cone%is_all) then    ! a reflex vertex is never hit first
+      if (turn_between(own_normal(:, 1), own_normal(:, 2)) < -corner) return
+    end if
+    do j = 1, size(list)
+      call see_edge(own, obstacle, k, list(j), x, u, view, cone, .true., sight)
+    end do
+    do j = 1, size(list)
+      call look_at_vertices(own, obstacle, k, j, size(list), x, u, free, view, cone, sight)
+    end do
+    do j = 1, sight%n
+      if (sight%is_kept(j)) call add_edge_place(obstacle, own%node(k), j, x, u, sight)
+      sight%at(sight%edge(j)) = 0
+    end do
+    if (sight%places > 1) call merge_places(obstacle, x, u, sight)
+  end subroutine find_places
+
+  !> An edge into the list: its frame, the node's place along it and gap, whether that makes a
+  !> row.
+  pure subroutine see_edge(own, obstacle, k, edge, x, u, view, cone, may_keep, sight)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, edge
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    logical, intent(in) :: may_keep
+    type(sight_t), intent(inout) :: sight
+    real(wp) :: s
+    sight%n = sight%n + 1
+    associate (j => sight%n, node => own%node(k))
+      sight%at(edge) = j
+      sight%edge(j) = edge
+      call edge_frame(obstacle, edge, x, u, view%is_reference, sight%frame(j))
+      s = local_coordinate(obstacle, edge, sight%frame(j), x, u, node)
+      sight%s(j) = s
+      sight%gap(j) = gap_to_edge(obstacle, edge, sight%frame(j)%normal, clamped(s), x, u, node)
+      sight%is_kept(j) = may_keep .and. s >= -end_tolerance .and. s <= one + end_tolerance
+      if (sight%is_kept(j)) sight%is_kept(j) = makes_row(obstacle, j, view, cone, sight)
+    end associate
+  end subroutine see_edge
+
+  !> Is the node near enough in front of edge j of the list, and does the edge face it?
+  pure logical function makes_row(obstacle, j, view, cone, sight)
+    type(surface_t), intent(in) :: obstacle
+    integer, intent(in) :: j
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    type(sight_t), intent(in) :: sight
+    makes_row = sight%gap(j) <= view%reach .and. &
+        sight%gap(j) > -deepest*obstacle%length(sight%edge(j))
+    if (makes_row) makes_row = faces(sight%frame(j)%normal, cone, facing_angle)
+  end function makes_row
+
+  pure real(wp) function clamped(s)
+    real(wp), intent(in) :: s
+    clamped = s
+    if (s <= end_tolerance) clamped = zero
+    if (s >= one - end_tolerance) clamped = one
+  end function clamped
+
+  !> Both ends of edge j of the list; a vertex between two listed edges once.
+  subroutine look_at_vertices(own, obstacle, k, j, listed, x, u, free, view, cone, sight)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, j, listed
+    real(wp), intent(in) :: x(:, :), u(:, :), free(:, :)
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    type(sight_t), intent(inout) :: sight
+    real(wp) :: y(2)
+    integer :: s, other, vertex, first, second
+    do s = 1, 2
+      other = obstacle%neighbour(s, sight%edge(j))
+      if (other == 0) cycle
+      if (s == 1 .and. sight%at(other) > 0 .and. sight%at(other) <= listed) cycle
+      vertex = obstacle%end_node(s, sight%edge(j))
+      y = difference(x, u, own%node(k), vertex)
+      if (y(1)**2 + y(2)**2 > view%reach**2) cycle
+      if (view%may_share) then
+        if (is_excluded(obstacle, other, own%node(k), own%chain(:, k))) cycle
+      end if
+      if (sight%at(other) == 0) &
+          call see_edge(own, obstacle, k, other, x, u, view, cone, .false., sight)
+      first = merge(sight%at(other), j, s == 1)
+      second = merge(j, sight%at(other), s == 1)
+      call judge_vertex(own, obstacle, k, vertex, first, second, y, x, u, free, view, cone, &
+          sight)
+    end do
+  end subroutine look_at_vertices
+
+  !> What a vertex between two edges of the list changes: rows of edges that come or go, and a
+  !> row of its own.
+  subroutine judge_vertex(own, obstacle, k, vertex, first, second, y, x, u, free, view, cone, &
+      sight)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, vertex, first, second
+    real(wp), intent(in) :: y(2), x(:, :), u(:, :), free(:, :)
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    type(sight_t), intent(inout) :: sight
+    real(wp) :: turn, shorter
+    logical :: in_first, in_second
+    in_first = sight%s(first) <= one + end_tolerance
+    in_second = sight%s(second) >= -end_tolerance
+    associate (n1 => sight%frame(first)%normal, n2 => sight%frame(second)%normal)
+      turn = zero
+      if (abs(n1(1) - n2(1)) + abs(n1(2) - n2(2)) > zero) turn = turn_between(n1, n2)
+    end associate
+    shorter = min(obstacle%length(sight%edge(first)), obstacle%length(sight%edge(second)))
+    if (turn < -smooth_angle) then
+      if (in_first .and. in_second) return
+      if (.not. sight%is_kept(first)) &
+          sight%is_kept(first) = makes_row(obstacle, first, view, cone, sight)
+      if (.not. sight%is_kept(second)) &
+          sight%is_kept(second) = makes_row(obstacle, second, view, cone, sight)
+    else if (turn <= smooth_angle) then
+      if (in_first .or. in_second) return
+      call add_smooth_vertex(own%node(k), vertex, first, second, shorter, y, view, cone, sight)
+    else
+      call judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, x, u, free, &
+          view, cone, sight)
+    end if
+  end subroutine judge_vertex
+
+  !> A node behind the ends of two edges that are nearly one: the mean normal.
+  pure subroutine add_smooth_vertex(node, vertex, first, second, shorter, y, view, cone, sight)
+    integer, intent(in) :: node, vertex, first, second
+    real(wp), intent(in) :: shorter, y(2)
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    type(sight_t), intent(inout) :: sight
+    real(wp) :: n(2), gap
+    n = sight%frame(first)%normal + sight%frame(second)%normal
+    n = n/sqrt(n(1)**2 + n(2)**2)
+    gap = dot_product(n, y)
+    if (gap > view%reach .or. gap <= -deepest*shorter) return
+    if (faces(n, cone, facing_angle)) &
+        call add_vertex_place(node, vertex, sight%edge(first), n, gap, shorter, sight)
+  end subroutine add_smooth_vertex
+
+  !> A convex corner: inside both half-planes the shallower edge holds; behind both ends, or at
+  !> the very end of one, the vertex.
+  subroutine judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, x, u, &
+      free, view, cone, sight)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, vertex, first, second
+    real(wp), intent(in) :: turn, shorter, y(2), x(:, :), u(:, :), free(:, :)
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    type(sight_t), intent(inout) :: sight
+    logical :: in_first, in_second
+    real(wp) :: beyond, enough
+    integer :: held, deeper
+    in_first = sight%s(first) <= one + end_tolerance
+    in_second = sight%s(second) >= -end_tolerance
+    enough = zero
+    held = 0
+    if (in_first .and. in_second) then
+      deeper = merge(first, second, sight%gap(first) < sight%gap(second))
+      held = merge(second, first, deeper == first)
+      if (abs(sight%gap(first) - sight%gap(second)) > 1.0e-7_wp*shorter) then
+        sight%is_kept(deeper) = .false.
+        return
+      end if
+      if (sight%is_kept(deeper) .and. .not. sight%is_kept(held)) held = deeper
+    else if (in_first .or. in_second) then
+      held = merge(first, second, in_first)
+      beyond = merge(one - sight%s(first), sight%s(second), in_first) &
+          *obstacle%length(sight%edge(held))
+      enough = allowance_of(own, k, sight%frame(held)%normal, shorter, x, u, view%is_reference)
+      if (beyond > enough) return
+    end if
+    call choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, x, u, free, &
+        view, cone, sight)
+  end subroutine judge_corner
+
+  !> The row of a convex corner: a normal of its cone that is one of the node's too, reversed.
+  !> Of the two ends of what they have in common, the one whose half-plane the free motion f
+  !> leaves least, or last. held: the edge that the row would replace, 0 = none; it stays where
+  !> the common cone is narrow: faces that lie on each other.
+  subroutine choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, x, u, &
+      free, view, cone, sight)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k, vertex, first, second, held
+    real(wp), intent(in) :: turn, shorter, y(2), x(:, :), u(:, :), free(:, :)
+    type(view_t), intent(in) :: view
+    type(cone_of_node_t), intent(in) :: cone
+    type(sight_t), intent(inout) :: sight
+    real(wp) :: low, high, n(2), gap, middle(2)
+    middle = sight%frame(first)%normal
+    middle = cos(half*turn)*middle + sin(half*turn)*[-middle(2), middle(1)]
+    call common_directions(middle, half*turn, cone, low, high)
+    if (high - low < -empty) return
+    if (held > 0 .and. high - low < narrow) then
+      if (sight%is_kept(held)) then
+        sight%is_kept(merge(second, first, held == first)) = .false.
+        return
+      end if
+    end if
+    if (high - low < 1.0e-9_wp) then
+      n = direction(middle, half*(low + high))
+    else
+      call choose_normal(direction(middle, low), direction(middle, high), y, &
+          free(:, own%node(k)) - free(:, vertex), &
+          allowance_of(own, k, middle, shorter, x, u, view%is_reference), shorter, n)
+    end if
+    gap = dot_product(n, y)
+    if (gap > view%reach .or. gap <= -deepest*shorter) return
+    if (held > 0) then
+      sight%is_kept(first) = .false.
+      sight%is_kept(second) = .false.
+    end if
+    call keep_edge_normal(sight%frame(first)%normal, n)
+    call keep_edge_normal(sight%frame(second)%normal, n)
+    call add_vertex_place(own%node(k), vertex, sight%edge(first), n, dot_product(n, y), &
+        shorter, sight)
+  end subroutine choose_at_corner
+
+  !> n is the normal of the edge where it differs from it by round-off alone.
+  pure subroutine keep_edge_normal(normal, n)
+    real(wp), intent(in) :: normal(2)
+    real(wp), intent(inout) :: n(2)
+    if (abs(n(1) - normal(1)) + abs(n(2) - normal(2)) < 1.0e-12_wp) n = normal
+  end subroutine keep_edge_normal
+
+  !> The unit vector at an angle from another.
+  pure function direction(middle, angle) result(n)
+    real(wp), intent(in) :: middle(2), angle
+    real(wp) :: n(2)
+    n = cos(angle)*middle + sin(angle)*[-middle(2), middle(1)]
+  end function direction
+
+  !> The angles from middle between which directions lie in the cone of a vertex (middle +-
+  !> half_width) and, reversed, in that of a node. high < low: none.
+  pure subroutine common_directions(middle, half_width, cone, low, high)
+    real(wp), intent(in) :: middle(2), half_width
+    type(cone_of_node_t), intent(in) :: cone
+    real(wp), intent(out) :: low, high
+    real(wp) :: angle
+    low = -half_width
+    high = half_width
+    if (cone%is_all) return
+    angle = turn_between(middle, -cone%middle)
+    low = max(low, angle - cone%half_width)
+    high = min(high, angle + cone%half_width)
+  end subroutine common_directions
+
+  !> Of the normals n1 and n2 that whose half-plane n.(y + f) >= 0 the free motion f leaves
+  !> least; where it leaves both by more than `enough`, last. The middle of a tie.
+  pure subroutine choose_normal(n1, n2, y, f, enough, length, n)
+    real(wp), intent(in) :: n1(2), n2(2), y(2), f(2), enough, length
+    real(wp), intent(out) :: n(2)
+    real(wp) :: m1, m2, t1, t2
+    real(wp) :: tie
+    tie = 1.0e-9_wp*length
+    m1 = dot_product(n1, y + f)
+    m2 = dot_product(n2, y + f)
+    n = merge(n1, n2, m1 > m2)
+    if (abs(m1 - m2) <= tie .and. &
+        (abs(dot_product(n1 - n2, y)) <= tie .or. min(m1, m2) >= -enough)) then
+      n = n1 + n2
+      n = n/sqrt(n(1)**2 + n(2)**2)
+    else if (max(m1, m2) < -enough) then
+      t1 = instant_of_leaving(dot_product(n1, y), m1)
+      t2 = instant_of_leaving(dot_product(n2, y), m2)
+      if (abs(t1 - t2) > zero) n = merge(n1, n2, t1 > t2)
+      if (max(t1, t2) < never .and. abs(t1 - t2)*sqrt(sum(f**2)) <= tie) &
+          n = (n1 + n2)/sqrt(sum((n1 + n2)**2))
+    end if
+  end subroutine choose_normal
+
+  !> When a gap g that becomes m in a step is zero, in steps; never, if it does not fall.
+  pure real(wp) function instant_of_leaving(g, m)
+    real(wp), intent(in) :: g, m
+    instant_of_leaving = never
+    if (g - m > abs(g)/never) instant_of_leaving = g/(g - m)
+  end function instant_of_leaving
+
+  !> Mean length of a node's own edges that face a normal (none: of both) [L]; 0 for a lone
+  !> node, which is finer than any edge.
+  pure real(wp) function size_of_node(own, k, normal, x, u, is_reference)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k
+    real(wp), intent(in) :: normal(2), x(:, :), u(:, :)
+    logical, intent(in) :: is_reference
+    real(wp), parameter :: facing_cosine = -0.7_wp
+    real(wp) :: c(2)
+    size_of_node = zero
+    associate (chain => own%chain(:, k), length => own%chain_length(:, k))
+      if (any(chain == 0)) return
+      c(1) = dot_product(normal, normal_between(x, u, chain(1), own%node(k), is_reference))
+      c(2) = dot_product(normal, normal_between(x, u, own%node(k), chain(2), is_reference))
+      if (count(c < facing_cosine) == 1) then
+        size_of_node = merge(length(1), length(2), c(1) < facing_cosine)
+      else
+        size_of_node = half*(length(1) + length(2))
+      end if
+    end associate
+  end function size_of_node
+
+  !> What a node without an exact row may go below zero [L]: a small share of the shorter edge
+  !> at hand.
+  pure real(wp) function allowance_of(own, k, normal, length, x, u, is_reference)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k
+    real(wp), intent(in) :: normal(2), length, x(:, :), u(:, :)
+    logical, intent(in) :: is_reference
+    real(wp) :: own_size
+    own_size = size_of_node(own, k, normal, x, u, is_reference)
+    if (.not. own_size > zero) own_size = length
+    allowance_of = merge(share_at_corner, share_of_edge, own%turn(k) > corner) &
+        *min(own_size, length)
+  end function allowance_of
+
+  pure subroutine add_vertex_place(node, vertex, edge, n, gap, length, sight)
+    integer, intent(in) :: node, vertex, edge
+    real(wp), intent(in) :: n(2), gap, length
+    type(sight_t), intent(inout) :: sight
+    sight%places = sight%places + 1
+    sight%place(sight%places) = place_t(node=node, edge=edge, vertex=vertex, s=one, normal=n, &
+        gap=gap, length=length)
+  end subroutine add_vertex_place
+
+  pure subroutine add_edge_place(obstacle, node, j, x, u, sight)
+    type(surface_t), intent(in) :: obstacle
+    integer, intent(in) :: node, j
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    type(sight_t), intent(inout) :: sight
+    real(wp) :: s
+    s = clamped(min(one, max(zero, sight%s(j))))
+    sight%places = sight%places + 1
+    sight%place(sight%places) = place_t(node=node, edge=sight%edge(j), s=s, &
+        normal=sight%frame(j)%normal, length=obstacle%length(sight%edge(j)), &
+        gap=gap_to_edge(obstacle, sight%edge(j), sight%frame(j)%normal, s, x, u, node))
+  end subroutine add_edge_place
+
+  !> The nearest first; of two whose normals are nearly the same the nearer, and of two edges
+  !> that are as near their common vertex with the mean normal.
+  pure subroutine merge_places(obstacle, x, u, sight)
+    type(surface_t), intent(in) :: obstacle
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    type(sight_t), intent(inout) :: sight
+    type(place_t) :: p
+    integer :: i, j, kept
+    logical :: is_new
+    do i = 2, sight%places
+      p = sight%place(i)
+      j = i - 1
+      do while (j > 0)
+        if (.not. comes_before(p, sight%place(j))) exit
+        sight%place(j + 1) = sight%place(j)
+        j = j - 1
+      end do
+      sight%place(j + 1) = p
+    end do
+    kept = 0
+    do i = 1, sight%places
+      p = sight%place(i)
+      is_new = .true.
+      do j = 1, kept
+        if (dot_product(p%normal, sight%place(j)%normal) <= cos(smooth_angle)) cycle
+        is_new = .false.
+        call meet_at_vertex(obstacle, x, u, p, sight%place(j))
+      end do
+      if (.not. is_new) cycle
+      kept = kept + 1
+      sight%place(kept) = p
+      sight%place(kept)%is_second = kept > 1
+    end do
+    sight%places = kept
+  end subroutine merge_places
+
+  pure logical function comes_before(p, q)
+    type(place_t), intent(in) :: p, q
+    comes_before = abs(p%gap) < abs(q%gap)
+    if (.not. comes_before .and. .not. abs(p%gap) > abs(q%gap)) comes_before = p%edge < q%edge
+  end function comes_before
+
+  !> Two neighbouring edges as near as each other: q becomes their vertex.
+  pure subroutine meet_at_vertex(obstacle, x, u, p, q)
+    type(surface_t), intent(in) :: obstacle
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    type(place_t), intent(in) :: p
+    type(place_t), intent(inout) :: q
+    real(wp) :: n(2)
+    integer :: first, vertex
+    if (p%vertex > 0 .or. q%vertex > 0) return
+    if (abs(abs(p%gap) - abs(q%gap)) > 1.0e-9_wp*min(p%length, q%length)) return
+    first = 0
+    if (obstacle%neighbour(2, p%edge) == q%edge) first = p%edge
+    if (obstacle%neighbour(2, q%edge) == p%edge) first = q%edge
+    if (first == 0) return
+    vertex = obstacle%end_node(2, first)
+    n = p%normal + q%normal
+    n = n/sqrt(n(1)**2 + n(2)**2)
+    q%edge = first
+    q%vertex = vertex
+    q%s = one
+    q%normal = n
+    q%gap = dot_product(n, x(:, q%node) - x(:, vertex)) &
+        + dot_product(n, u(:, q%node) - u(:, vertex))
+    q%length = min(p%length, q%length)
+  end subroutine meet_at_vertex
+
+end module contact_places

@@ -1,0 +1,92 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Energy-safe closing of overlaps. A row is posed as u_n = n.H dU + c >= 0 with the gap g0 at
+!> the start of the step: c = g0 where that is positive, else c = beta g0, 0 <= beta <= 1. The
+!> work of the reactions of a step is
+!>   - sum r_n c - sum mu r_n |u_t| + sum e_a,
+!> so c > 0 takes energy, c = 0 is neutral (an overlap stays, but may not deepen), c < 0 gives
+!> r_n |c|. What is given must have been taken before in normal direction by the same card: then
+!> the total energy never exceeds what was put in, whatever rows, frames and edges come and go.
+!> With S = sum |g0| r_n over the overlaps the gain is beta S(beta), and S grows with beta
+!> (without friction: minus the slope of the least value of a quadratic program, which is
+!> concave in beta), so that gain(beta) <= beta S(1): one repeat is enough.
+module contact_purse
+  use base_kinds, only: wp, zero, one
+  use contact_types, only: contact_t
+  implicit none
+  private
+  public :: start_purses, set_offsets, purse_is_short
+
+  !> Closing round-off is free: this share of the largest term of the energy ledger.
+  real(wp), parameter :: round_off = 1.0e-12_wp
+  !> A purse that was short stays shut until it holds this share of what was last wanted.
+  real(wp), parameter :: worth_trying = 0.1_wp
+
+contains
+
+  !> beta at the start of a step: 1; 0 where the last step left the purse nearly empty, so that an
+  !> empty purse costs no second solve.
+  pure subroutine start_purses(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: p
+    do p = 1, size(contact%pairing)
+      associate (purse => contact%pairing(p)%item%purse)
+        if (purse%beta < one .and. purse%balance < worth_trying*purse%wanted) then
+          purse%beta = zero
+        else
+          purse%beta = one
+        end if
+      end associate
+    end do
+  end subroutine start_purses
+
+  !> c of every row.
+  pure subroutine set_offsets(contact)
+    type(contact_t), intent(inout) :: contact
+    real(wp) :: gap
+    integer :: a
+    associate (rows => contact%rows)
+      do a = 1, rows%n
+        gap = rows%gap(a) + rows%allowance(a)
+        rows%offset(a) = gap
+        if (gap < zero) rows%offset(a) = contact%pairing(rows%key(1, a))%item%purse%beta*gap
+      end do
+    end associate
+  end subroutine set_offsets
+
+  !> Does some pairing give back more than it has? Its beta falls to what it can pay, then to
+  !> none. largest [F L]: of the terms of the energy ledger.
+  logical function purse_is_short(contact, largest)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in) :: largest
+    real(wp) :: given(size(contact%pairing)), taken(size(contact%pairing)), work
+    integer :: a, p
+    purse_is_short = .false.
+    if (.not. any(contact%rows%offset(:contact%rows%n) < zero)) return
+    given = zero
+    taken = zero
+    associate (rows => contact%rows)
+      do a = 1, rows%n
+        work = rows%r(1, a)*rows%offset(a)
+        if (work < zero) given(rows%key(1, a)) = given(rows%key(1, a)) - work
+        if (work > zero) taken(rows%key(1, a)) = taken(rows%key(1, a)) + work
+      end do
+    end associate
+    do p = 1, size(contact%pairing)
+      associate (pairing => contact%pairing(p)%item)
+        if (.not. pairing%is_energy_safe .or. .not. given(p) > zero) cycle
+        associate (purse => pairing%purse)
+          if (given(p) <= purse%balance + taken(p) + round_off*largest) cycle
+          purse_is_short = .true.
+          if (purse%beta < one) then
+            purse%beta = zero
+          else
+            purse%wanted = given(p)
+            purse%beta = min(0.99_wp, max(zero, (purse%balance + taken(p))/given(p)))
+            purse%short_steps = purse%short_steps + 1
+          end if
+        end associate
+      end associate
+    end do
+  end function purse_is_short
+
+end module contact_purse
