@@ -9,7 +9,7 @@ module assembly_forces
   implicit none
   private
   public :: subtract_internal_force, subtract_damping_force, damping_product, strain_energies, &
-      strain_product, element_product, add_loads, largest_rotation
+      strain_product, element_product, add_loads, largest_rotation, first_inverted
 
 contains
 
@@ -154,6 +154,21 @@ contains
     end do
     angle = atan(angle)
   end subroutine largest_rotation
+
+  !> The first element whose area at X + U is not positive; 0 = none.
+  pure integer function first_inverted(system, x, u)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp) :: d(2), e(2)
+    do first_inverted = 1, size(system%corner, 2)
+      associate (c => system%corner(:, first_inverted))
+        d = (x(:, c(3)) - x(:, c(1))) + (u(:, c(3)) - u(:, c(1)))
+        e = (x(:, c(4)) - x(:, c(2))) + (u(:, c(4)) - u(:, c(2)))
+      end associate
+      if (.not. d(1)*e(2) - d(2)*e(1) > zero) return
+    end do
+    first_inverted = 0
+  end function first_inverted
 
   !> p = p + factor * loads at a time: nodal forces by their curves, body loads as
   !> - M (acceleration of the base).

@@ -7,7 +7,7 @@ module contact_node
   use contact_features, only: gap_to_place, smooth_angle
   use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
-  use contact_overlap, only: true_gap, open_gap, update_front, deepest_node, deepest_crossing
+  use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, deepest_crossing
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight
   use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
@@ -40,6 +40,8 @@ module contact_node
 
   !> A late row is one whose gap at the end of the step is below this many allowances.
   real(wp), parameter :: too_deep = 1.5_wp
+  !> Shallower nodes are inside where the listed edges say so.
+  real(wp), parameter :: sure = 5.0e-3_wp
 
 contains
 
@@ -332,6 +334,8 @@ contains
             if (near%front(i) == is_behind) cycle
             call true_gap(obstacle, list, model%x, u1, own%node(near%node(i)), gap, edge)
             if (gap >= zero) cycle
+            call look_again(this, model%x, u1, s, near%node(i), gap, edge)
+            if (gap >= zero) cycle
             call find_places(own, obstacle, near%node(i), list, model%x, u1, u1, view, &
                 this%sight)
           end associate
@@ -397,6 +401,7 @@ contains
           associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
             if (obstacle%is_closed) then
               call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
+              if (gap < zero) call look_again(this, model%x, u, s, near%node(i), gap, edge)
             else
               call open_gap(own, obstacle, near%node(i), list, model%x, u, gap, edge)
               if (near%front(i) == is_behind) gap = huge(one)
@@ -414,6 +419,27 @@ contains
       end associate
     end do
   end subroutine node_measure
+
+  !> A deep node is looked at with all edges of a closed obstacle: those on the list are only those
+  !> that may face it, and the far side of a thin body may be among them.
+  pure subroutine look_again(this, x, u, s, k, gap, edge)
+    class(pairing_node_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    integer, intent(in) :: s, k
+    real(wp), intent(inout) :: gap
+    integer, intent(inout) :: edge
+    real(wp) :: depth
+    logical :: is_inside
+    integer :: without
+    associate (own => this%side(s), obstacle => this%side(facing_side(this, s)))
+      if (-gap < sure*obstacle%length(edge) .or. .not. obstacle%is_closed) return
+      without = 0
+      if (this%is_self) without = own%body(maxval(own%node_edge(:, k)))
+      if (without == obstacle%body(edge)) return
+      call confirm_inside(obstacle, x, u, own%node(k), without, is_inside, depth, edge)
+      gap = merge(-depth, depth, is_inside)
+    end associate
+  end subroutine look_again
 
   pure subroutine note_gap(this, s, k, gap)
     type(pairing_node_t), intent(inout) :: this

@@ -12,7 +12,7 @@ module contact_overlap
   use contact_tree, only: tree_t, edges_in_box, edges_near, distance_to_edges, winding_number
   implicit none
   private
-  public :: true_gap, update_front, deepest_node, deepest_crossing, open_gap
+  public :: true_gap, confirm_inside, update_front, deepest_node, deepest_crossing, open_gap
 
   !> Before an open obstacle a node this share of an edge deep is no longer behind it.
   real(wp), parameter :: deepest = 0.3_wp
@@ -62,24 +62,69 @@ contains
     if (edge == 0) return
     if (place == 0 .and. cross < zero) gap = -gap
     if (place > 0) then
-      if (is_reflex(obstacle, edge, place, x, u)) gap = -gap
+      if (is_behind_vertex(obstacle, edge, place, x, u, node)) gap = -gap
     end if
   end subroutine true_gap
 
-  !> Is the boundary reflex at the first (1) or second (2) node of an edge?
-  pure logical function is_reflex(obstacle, edge, place, x, u)
+  !> Of a node to which the first (1) or second (2) node of an edge is the nearest point of the
+  !> listed boundary: does it stand behind it? In front of a convex vertex it is where one of the
+  !> edges has it in front, in front of a reflex one where both have.
+  pure logical function is_behind_vertex(obstacle, edge, place, x, u, node)
     type(surface_t), intent(in) :: obstacle
-    integer, intent(in) :: edge, place
+    integer, intent(in) :: edge, place, node
     real(wp), intent(in) :: x(:, :), u(:, :)
-    real(wp) :: a(2), b(2)
+    real(wp) :: a(2), b(2), y(2), turn, g(2)
     integer :: other
     other = obstacle%neighbour(place, edge)
-    is_reflex = .false.
+    is_behind_vertex = .false.
     if (other == 0) return
     a = difference(x, u, obstacle%end_node(2, edge), obstacle%end_node(1, edge))
     b = difference(x, u, obstacle%end_node(2, other), obstacle%end_node(1, other))
-    is_reflex = merge(a(1)*b(2) - a(2)*b(1), b(1)*a(2) - b(2)*a(1), place == 2) < zero
-  end function is_reflex
+    a = a/max(sqrt(sum(a**2)), tiny(one))
+    b = b/max(sqrt(sum(b**2)), tiny(one))
+    y = difference(x, u, node, obstacle%end_node(place, edge))
+    g = [a(2)*y(1) - a(1)*y(2), b(2)*y(1) - b(1)*y(2)]
+    turn = (a(1)*b(2) - a(2)*b(1))*merge(one, -one, place == 2)
+    if (abs(turn) < 1.0e-3_wp) then
+      is_behind_vertex = g(1) + g(2) < zero
+    else if (turn > zero) then
+      is_behind_vertex = max(g(1), g(2)) < zero
+    else
+      is_behind_vertex = min(g(1), g(2)) < zero
+    end if
+  end function is_behind_vertex
+
+  !> Is a node inside the closed obstacle, all its edges asked? depth [L] below the edge nearest
+  !> to it. Edges of one body may be left out (0 = none).
+  pure subroutine confirm_inside(obstacle, x, u, node, without, is_inside, depth, edge)
+    type(surface_t), intent(in) :: obstacle
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    integer, intent(in) :: node, without
+    logical, intent(out) :: is_inside
+    real(wp), intent(out) :: depth
+    integer, intent(out) :: edge
+    real(wp) :: d(2), y(2), s, best, distance_2
+    integer :: e, winding
+    winding = 0
+    best = huge(one)
+    edge = 0
+    do e = 1, size(obstacle%length)
+      if (obstacle%body(e) == without) cycle
+      d = difference(x, u, obstacle%end_node(2, e), obstacle%end_node(1, e))
+      y = difference(x, u, node, obstacle%end_node(1, e))
+      if ((y(2) < zero) .neqv. (y(2) < d(2))) then
+        if (y(1)*abs(d(2)) < sign(one, d(2))*d(1)*y(2)) winding = winding + &
+            merge(1, -1, d(2) > zero)
+      end if
+      s = min(one, max(zero, (d(1)*y(1) + d(2)*y(2))/max(d(1)**2 + d(2)**2, tiny(one))))
+      distance_2 = (y(1) - s*d(1))**2 + (y(2) - s*d(2))**2
+      if (distance_2 >= best) cycle
+      best = distance_2
+      edge = e
+    end do
+    is_inside = winding > 0
+    depth = sqrt(best)
+  end subroutine confirm_inside
 
   !> Gap of row k of the nodes of `own` to the nearest facing edge of an open obstacle whose
   !> extent holds it and from which it is not too deep; huge: none.

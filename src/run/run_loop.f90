@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The step loop.
 module run_loop
-  use assembly_forces, only: add_loads, largest_rotation, subtract_internal_force, &
+  use assembly_forces, only: add_loads, largest_rotation, first_inverted, subtract_internal_force, &
       subtract_damping_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
@@ -368,12 +368,19 @@ contains
     call run%timers%enter(phase_other)
   end subroutine tell
 
-  !> True overlap of all bodies in contact, at output times and at the end.
+  !> True overlap of all bodies in contact, at output times and at the end. It means something while
+  !> elements are not inverted.
   subroutine check_overlap(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
+    integer :: element
     call run%timers%enter(phase_search)
     call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
+    element = first_inverted(run%system, run%model%x, run%state%u)
+    if (element > 0) call fail(status, status_numerical, 'element '// &
+        to_text(run%model%element_id(element))//' is turned inside out: its boundary is no '// &
+        'longer that of a body that contact could hold apart', &
+        hint='check the loads and motions; take a smaller step')
     if (failed(status)) call add_place(status, moment(run))
   end subroutine check_overlap
 
