@@ -190,7 +190,7 @@ def approach(loop, others, direction, gap):
     """How far an outline can go along the unit direction until `gap` is left to the nearest
     other; it never goes farther than is free."""
     gone = 0.0
-    for _ in range(400):
+    for _ in range(1000):
         free = min(distance(loop + gone * direction, other) for other in others) - gap
         if free < 1.0e-3 * gap or gone > 1.0e3:
             break

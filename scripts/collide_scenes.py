@@ -42,7 +42,7 @@ def body(rng, raw):
 def piece(rng, across):
     """A body of any shape with up to `across` elements over its width."""
     shape, width = rng.choice(SHAPES), rng.uniform(0.6, 1.2)
-    height, size = width * rng.uniform(0.4, 1.0), width / rng.uniform(1.5, across)
+    height, size = width * rng.uniform(0.4, 1.0), width / rng.uniform(2.0, across)
     if shape == "rectangle":
         raw = mesh.rectangle(rng, width, height, width / size, height / size)
     elif shape in "LUT":
@@ -72,10 +72,12 @@ def loop_of(b):
 
 
 def set_materials(rng, scene):
-    """Speeds of sound 15 to 2000 times the speeds of the bodies, densities within a factor 30;
-    more in extreme scenes."""
+    """Speeds of sound 15 to 2000 times the speeds of the bodies at Courant numbers up to about
+    100, densities within a factor 30; more in extreme scenes."""
     extreme, bodies = scene["extreme"], scene["bodies"]
-    sound = 10.0 ** rng.uniform(1.2, 3.3)
+    most = 40.0 if "stiffness" in extreme else 2000.0
+    most = min(most, max(20.0, 40.0 * shortest_edge(scene) / scene["dt"]))
+    sound = 10.0 ** rng.uniform(1.2, math.log10(most))
     for b in bodies:
         b["density"] = 10.0 ** rng.uniform(-0.75, 0.75)
         b["young"] = b["density"] * (sound * 10.0 ** rng.uniform(-0.4, 0.4)) ** 2
@@ -94,15 +96,27 @@ def set_materials(rng, scene):
     scene["mu"] = float(rng.choice([0.0, rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0)]))
     if "friction" in extreme:
         scene["mu"] = float(rng.uniform(1.0, 10.0))
+    scene["courant"] = scene["dt"] * max(map(highest_rate, bodies))
+
+
+def highest_rate(b):
+    """Speed of pressure waves over the shortest edge of the outline."""
+    nu = b["poisson"]
+    modulus = b["young"] * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    return math.sqrt(modulus / b["density"]) / mesh.edge_lengths(loop_of(b)).min()
+
+
+def shortest_edge(scene):
+    return min(mesh.edge_lengths(loop_of(b)).min() for b in scene["bodies"])
 
 
 def set_steps(rng, scene):
     """Step and number of steps, by the shortest edge; the way travelled is at most 2.5."""
-    shortest = min(mesh.edge_lengths(loop_of(b)).min() for b in scene["bodies"])
+    shortest = shortest_edge(scene)
     if rng.random() < 0.35:
         factor, steps = 10.0 ** rng.uniform(-1.3, -0.3), rng.integers(80, 200)
     else:
-        factor, steps = 10.0 ** rng.uniform(-2.3, -1.75), rng.integers(150, 400)
+        factor, steps = 10.0 ** rng.uniform(-2.3, -1.75), rng.integers(200, 500)
     scene["dt"] = float(factor * shortest)
     scene["steps"] = int(min(steps, max(30, 2.5 / scene["dt"])))
     scene["end"] = scene["steps"] * scene["dt"]
@@ -169,7 +183,7 @@ def stacked(rng, scene):
         for b in scene["bodies"][0 if on_wall else 1 :]:
             b["xy"] = mesh.turned(b["xy"], rng.choice([0.0, rng.uniform(0.0, 6.283)]))
             aim = np.array([rng.uniform(-0.4, 0.4), 0.0])
-            place(b, others, aim, np.array([0.0, -1.0]), scene["gap"] * rng.uniform(0.1, 1.0))
+            place(b, others, aim, np.array([0.0, -1.0]), scene["gap"] * rng.uniform(0.05, 0.5))
             b["velocity"] += rng.uniform(0.0, 0.5) * np.array([rng.uniform(-0.5, 0.5), -1.0])
             spin(rng, b, scene["end"], 0.1)
             others.append(loop_of(b))
@@ -195,9 +209,11 @@ def hold_lowest(b):
 
 
 def wedged(rng, scene):
-    """A wedge or block driven or thrown into a groove, a slot or an inner corner."""
+    """A wedge or block driven or thrown into a groove, a slot or an inner corner. The makers
+    return holder, driver, the deepest point, the direction to it, and the room at the sides.
+    """
     make = (groove, narrow_slot, inner_corner)[rng.integers(3)]
-    holder, driver, tip, way = make(rng, scene["across"])
+    holder, driver, tip, way, free = make(rng, scene["across"])
     if "aspect" in scene["extreme"]:
         driver = sliver(rng)
     scene["bodies"] = [holder, driver]
@@ -211,8 +227,7 @@ def wedged(rng, scene):
     def arrange():
         lowest = loop_of(driver)[np.argmax(loop_of(driver) @ way)]
         aim = tip - lowest + rng.choice([0.0, 0.03]) * rng.uniform(-1.0, 1.0, 2)
-        gap = min(scene["gap"], scene.get("clearance", 1.0))
-        place(driver, [loop_of(holder)], aim, way, gap)
+        place(driver, [loop_of(holder)], aim, way, min(scene["gap"], 0.4 * free))
         driver["velocity"] += rng.uniform(0.5, 1.0) * way
         if held:
             hold_lowest(holder)
@@ -246,7 +261,7 @@ def groove(rng, across):
     else:
         driver = block(rng, 0.25 * math.pi)
     way = np.array([0.0, -1.0])
-    return holder, driver, groove_tip(holder), way
+    return holder, driver, groove_tip(holder), way, 1.0
 
 
 def groove_tip(holder):
@@ -268,14 +283,15 @@ def block(rng, angle=0.0, width=None):
 def narrow_slot(rng, across):
     """A slot and a block that is a little narrower."""
     opening, depth = rng.uniform(0.3, 0.6), rng.uniform(0.3, 0.7)
-    driver = block(rng, 0.0, opening - 2.0 * 10.0 ** rng.uniform(-2.5, -1.0))
+    clearance = 10.0 ** rng.uniform(-2.5, -1.1)
+    driver = block(rng, 0.0, opening - 2.0 * clearance)
     raw = mesh.slot(rng, 1.4, 1.0, opening, depth, 1.4 / (across + 1.0))
     holder = body(rng, raw)
     way = np.array([0.0, -1.0])
     top = loop_of(holder)[:, 1].max()
     middle = 0.5 * (loop_of(holder)[:, 0].max() + loop_of(holder)[:, 0].min())
     corner = loop_of(driver)[np.argmax(loop_of(driver) @ way)]
-    return holder, driver, np.array([middle + corner[0], top - depth]), way
+    return holder, driver, np.array([middle + corner[0], top - depth]), way, clearance
 
 
 def inner_corner(rng, across):
@@ -286,7 +302,7 @@ def inner_corner(rng, across):
     turns = np.roll(edges, 1, axis=0)
     reflex = turns[:, 0] * edges[:, 1] - turns[:, 1] * edges[:, 0] < -1.0e-9
     angle = 1.25 * math.pi + rng.choice([0.0, 0.5]) * rng.uniform(-1.0, 1.0)
-    return holder, block(rng), loop[reflex][0], direction_of(angle)
+    return holder, block(rng), loop[reflex][0], direction_of(angle), 1.0
 
 
 KINDS = {"thrown": thrown, "stacked": stacked, "wedged": wedged}
@@ -303,8 +319,8 @@ def draw(seed, number, single=False):
     scene = dict(kind=kind, extreme=extreme, count=count, across=across)
     scene.update(gravity=np.zeros(2), wall=None)
     arrange = KINDS[kind](rng, scene)
-    set_materials(rng, scene)
     set_steps(rng, scene)
+    set_materials(rng, scene)
     arrange()
     card = str(rng.choice(["", "all", "set"]))
     scene["single"] = card if single else ""
