@@ -26,15 +26,15 @@ Q := $(if $(V),,@)
 .SUFFIXES:
 .DEFAULT_GOAL := all
 .PHONY: all no-hdf5 demo test test-unit test-programs bench-programs check-style doc deps venv debug \
-        sanitize fuzz bench bench-features bench-fclib report stability \
+        sanitize fuzz collide bench bench-features bench-fclib report stability \
         clean distclean help FORCE
 
 # ---------------------------------------------------------------- targets for people
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
-light := demo test test-unit check-style doc deps venv debug sanitize fuzz bench bench-features bench-fclib report \
-         stability clean distclean help
+light := demo test test-unit check-style doc deps venv debug sanitize fuzz collide bench bench-features bench-fclib \
+         report stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
 all: $(BIN) $(if $(wildcard src/hdf5/*.f90),$(if $(HDF5_MODULES),$(STORE_BIN) $(FCLIB_BIN),no-hdf5)) ## build bin/bipact, bin/bipact-hdf5, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
@@ -67,6 +67,12 @@ fuzz: ## run N (20000) damaged decks; SEED=1
 	+@$(again) all
 	@BIPACT=$(BIN) $(PYTHON3) tests/fuzz/fuzz.py --count $(or $(N),20000) --seed $(or $(SEED),1) \
 	  --keep build/fuzz
+
+collide: ## run N (200) random collisions of bodies and judge them from outside; SEED=1, FRESH=1
+	+@$(again) venv
+	+@$(again) all
+	@BIPACT=$(BIN) .venv/bin/python scripts/collide.py $(or $(N),200) --seed $(or $(SEED),1) \
+	  $(if $(FRESH),--fresh)
 
 bench: ## measure speed and accuracy of the two-bar impact and of the reader
 	+@$(again) all bench-programs

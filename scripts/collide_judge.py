@@ -125,7 +125,7 @@ def passages(points, loop):
 
 def through(points, loop):
     """Nodes that enter a body and leave it through its far side: [(row, node)]. Passing across
-    a tip is left out: entry and exit are more than a tenth of an edge apart."""
+    a tip is left out: entry and exit are more than a tenth of the shortest edge apart."""
     rows = near_rows(points, loop)
     if len(rows) < 2:
         return []
@@ -133,7 +133,7 @@ def through(points, loop):
     for r in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
         part, body = points[r], loop[r]
         a, d = edges_of(body[0])
-        lengths = mesh.edge_lengths(loop[0])
+        least = 0.1 * mesh.edge_lengths(loop[0]).min()
         entry = {}
         for row, node, edge, way, place in zip(*passages(part, body)):
             if way > 0:
@@ -142,7 +142,7 @@ def through(points, loop):
                 e, p = entry.pop(node)
                 gone = a[edge] + place * d[edge] - a[e] - p * d[e]
                 opposite = d[e] @ d[edge] < 0.0
-                if opposite and np.hypot(*gone) > 0.1 * min(lengths[e], lengths[edge]):
+                if opposite and np.hypot(*gone) > least:
                     found.append((int(r[row]) + 1, int(node)))
     return found
 

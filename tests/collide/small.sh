@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# A dozen random collisions; any number: make collide N=...
+exec "$PYTHON" "$ROOT/scripts/collide.py" "${COLLIDE:-12}" --jobs 1 --out "$TMP/collide"
