@@ -49,7 +49,7 @@ EVERY = 20  # steps between the rows of a twin
 GROWTH, LEDGER, MOMENTUM, SUPPORTED = 1.0e-9, 1.0e-9, 1.0e-10, 1.0e-9
 BALANCE, SAME, DEPARTED, DEEP = 1.0e-12, 1.0e-9, 1.0e-10, 1.0e-2
 ANGLE = math.radians(37.0)
-NAMES = ("kind", "extreme", "single", "steps", "courant")
+NAMES = ("kind", "extreme", "single", "steps", "courant", "roundoff")
 WARNINGS = ("overlap", "energy-growth")
 
 
@@ -202,9 +202,8 @@ def symmetry(program, scene, moved, code, folder):
 
 
 def stiffness(result):
-    """Factor on the bounds: round-off of the forces of stiff bodies grows with the square of
-    the Courant number."""
-    return max(1.0, (result["courant"] / 100.0) ** 2)
+    """Factor on the bounds where round-off is above 1e-10 of the energy."""
+    return max(1.0, result["roundoff"] / 1.0e-10)
 
 
 def class_of(result):
@@ -238,7 +237,7 @@ def faults(result):
             out.append("%s %.1e" % (name, result[name]))
     if result["silent"] and result["overlap"] > DEEP and class_of(result) != "beyond":
         words = (result["overlap"], *result["pair"], result["time"])
-        out.append("silent overlap %.1e of an edge, bodies %d and %d, time %g" % words)
+        out.append("silent overlap %.1e of an edge, bodies %s and %s, time %g" % words)
     if result["silent"] and result["through"]:
         row, pair, node = result["through"][0]
         words = (node, *pair, row)

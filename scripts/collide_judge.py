@@ -180,7 +180,7 @@ def overlap(histories, loops, wall=None):
 
     for i, one in enumerate(outlines):
         if wall:
-            deeper(*below_wall(one, wall), (i, -1))
+            deeper(*below_wall(one, wall), (i, "wall"))
             still = np.zeros((len(one), 1, 2))
             moved = relative_step(histories[i], still) / shortest[i]
             found["step"] = max(found["step"], moved)
