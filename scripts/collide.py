@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Random collisions of plane bodies, judged from outside: collide.py [N] [options]
 
-Scene number k of a seed is made from (seed, k) alone: two to five bodies of random shapes, meshes
-and materials that are thrown at each other, stacked under gravity, or wedged in a groove. Their
-tables and meshes alone say whether the run is right:
+Scene number k of a seed is made from (seed, k) alone: two to five bodies of random shapes,
+meshes and materials that are thrown at each other, stacked under gravity, or wedged in a
+groove. Their tables and meshes alone say whether the run is right:
 
     always      exit code 0, or 1 with a message that names a node; an end within the limit;
-                energy <= initial + external + motion + unsolved, ledger closed, momentum
-                kept (or its change equal to the impulse from outside), forces of both sides of a
+                energy <= initial + external + motion + unsolved, ledger closed, momentum kept
+                (or its change equal to the impulse from outside), forces of both sides of a
                 contact opposite; mirrored, turned, renumbered with the bodies exchanged the
                 scene gives the same motion, as long as gaps changed by 1e-14 do not matter
     silent      exit code 0, neither WARNING overlap nor WARNING energy-growth: no true overlap
@@ -16,9 +16,15 @@ tables and meshes alone say whether the run is right:
 
 A run is fine where no two bodies move by more than 0.05 of the shortest edge against each other
 in a step, coarse up to 1, beyond above that (no promise on overlap); extreme by its draw:
-stiffness ratio to 1e6, mass ratio to 1e4, Poisson ratio to 0.499, friction to 10, elements 1 : 100
-in size, 1 : 20 in aspect. Results are kept in --out, so that an interrupted study goes on; those
-of another program or another judge are made again. Exit code 1 if anything failed.
+stiffness ratio to 1e6, mass ratio to 1e4, Poisson ratio to 0.499, friction to 10, elements 1 :
+100 in size, 1 : 20 in aspect. Where the round-off of stiff bodies is expected above 1e-10, the
+bounds on energy, momentum and twins grow with it. Results are kept in --out, so that an interrupted study goes on;
+those of another program or another judge are made again. Exit code 1 if anything failed.
+
+Columns of the closing table: runs, those with contact (touch), warned, stopped (exit code not
+0) or failed; overlap of all runs: median, 99 %, deepest, and the deepest of the silent ones;
+largest excess of energy / largest term and of momentum / largest of a body; runs whose twins
+differ.
 """
 
 import argparse

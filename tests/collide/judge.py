@@ -147,8 +147,12 @@ def check_scenes():
         check("scene %d again" % number, collide_deck.deck(scene) == collide_deck.deck(again))
         mirrored = scenes.transformed(scene, scenes.MIRROR)
         for one in (scene, mirrored, scenes.renumbered(scene, np.random.default_rng(1))):
-            areas = [mesh.corner_areas(b["xy"], e) for b in one["bodies"] for e in b["elements"]]
-            check("areas of scene %d" % number, min(a.min() for a in areas) > 0.0)
+            least = min(
+                mesh.corner_areas(b["xy"], e).min()
+                for b in one["bodies"]
+                for e in b["elements"]
+            )
+            check("areas of scene %d" % number, least > 0.0)
         loops = [scenes.loop_of(b) for b in scene["bodies"]]
         gaps = [mesh.distance(a, b) for k, a in enumerate(loops) for b in loops[:k]]
         check("gaps of scene %d" % number, min(gaps) > 0.0)
