@@ -16,10 +16,11 @@ groove. Their tables and meshes alone say whether the run is right:
 
 A run is fine where no two bodies move by more than 0.05 of the shortest edge against each other
 in a step, coarse up to 1, beyond above that (no promise on overlap); extreme by its draw:
-stiffness ratio to 1e6, mass ratio to 1e4, Poisson ratio to 0.499, friction to 10, elements 1 :
-100 in size, 1 : 20 in aspect. Where the round-off of stiff bodies is expected above 1e-10, the
-bounds on energy, momentum and twins grow with it. Results are kept in --out, so that an interrupted study goes on;
-those of another program or another judge are made again. Exit code 1 if anything failed.
+stiffness ratio to 1e6, mass ratio to 1e4, Poisson ratio to 0.499, friction to 10, elements
+1:100 in size, 1:20 in aspect. Where the round-off of stiff bodies is expected above 1e-10, the
+bounds on energy, momentum and twins grow with it. Results are kept in --out, so that an
+interrupted study goes on; those of another program or another judge are made again. Exit code 1
+if anything failed.
 
 Columns of the closing table: runs, those with contact (touch), warned, stopped (exit code not
 0) or failed; overlap of all runs: median, 99 %, deepest, and the deepest of the silent ones;
