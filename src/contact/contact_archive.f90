@@ -20,18 +20,21 @@ contains
   subroutine exchange_contact(archive, contact)
     type(archive_t), intent(inout) :: archive
     type(contact_t), intent(inout) :: contact
-    integer :: counts(5)
+    integer :: counts(6)
     integer :: p
     counts = [size(contact%interface_node), merge(1, 0, contact%alternates), &
-        contact%solves_without_contact, contact%listed, contact%idle_steps]
+        contact%solves_without_contact, contact%listed, contact%idle_steps, &
+        size(contact%carried, 2)]
     call archive%exchange('contact.counts', counts)
     contact%alternates = counts(2) == 1
     contact%solves_without_contact = counts(3)
     contact%listed = counts(4)
     contact%idle_steps = counts(5)
-    if (archive%mode == archive_restore) call size_interface(contact, counts(1))
+    if (archive%mode == archive_restore) call size_interface(contact, counts(1), counts(6))
     call archive%exchange('contact.interface', contact%interface_node)
     call archive%exchange('contact.slot', contact%slot)
+    call archive%exchange('contact.carried', contact%carried(1, :))
+    call archive%exchange('contact.carrier', contact%carried(2, :))
     call archive%exchange('contact.acts', contact%acts)
     call exchange_rows(archive, contact%rows)
     if (contact%keeps_before) call exchange_rows(archive, contact%before)
@@ -42,10 +45,12 @@ contains
     if (archive%mode == archive_restore) contact%w_is_current = .false.
   end subroutine exchange_contact
 
-  !> Storage for an interface of n nodes and the lists that go with it.
-  subroutine size_interface(contact, n)
+  !> Storage for an interface of n nodes, those that are carried, and the lists that go with it.
+  subroutine size_interface(contact, n, carried)
     type(contact_t), intent(inout) :: contact
-    integer, intent(in) :: n
+    integer, intent(in) :: n, carried
+    deallocate (contact%carried)
+    allocate (contact%carried(2, carried))
     if (allocated(contact%late)) deallocate (contact%late)
     allocate (contact%late(4*contact%listed + 8))
     if (size(contact%interface_node) == n) return

@@ -40,7 +40,7 @@ contains
     if (contact%solves_without_contact < 3) then
       call carry_reactions(contact%rows, contact%next)
       if (contact%spare%n > 0) call carry_reactions(contact%rows, contact%spare)
-      if (any(contact%spare%r(1, :contact%spare%n) > zero)) call take_spare(contact, &
+      if (any(contact%spare%r(1, :contact%spare%n) > zero)) call take_spare(contact%spare, &
           contact%spare%r(1, :contact%spare%n) > zero, contact%next)
     end if
     call use_next(contact)
@@ -59,33 +59,32 @@ contains
   end subroutine use_next
 
   !> Puts the chosen spare rows into a list, at their places.
-  subroutine take_spare(contact, is_taken, rows)
-    type(contact_t), intent(inout) :: contact
+  subroutine take_spare(spare, is_taken, rows)
+    type(rows_t), allocatable, intent(inout) :: spare, rows
     logical, intent(in) :: is_taken(:)
-    type(rows_t), allocatable, intent(inout) :: rows
     type(rows_t), allocatable :: merged, left
     integer :: a, b
     allocate (merged, left)
     call start_rows(merged, rows%n + count(is_taken))
-    call start_rows(left, contact%spare%n)
+    call start_rows(left, spare%n)
     a = 1
-    do b = 1, contact%spare%n
+    do b = 1, spare%n
       if (.not. is_taken(b)) then
-        call copy_row(contact%spare, b, left)
+        call copy_row(spare, b, left)
         cycle
       end if
       do while (a <= rows%n)
-        if (.not. comes_before(rows%key(:, a), contact%spare%key(:, b))) exit
+        if (.not. comes_before(rows%key(:, a), spare%key(:, b))) exit
         call copy_row(rows, a, merged)
         a = a + 1
       end do
-      call copy_row(contact%spare, b, merged)
+      call copy_row(spare, b, merged)
     end do
     do a = a, rows%n
       call copy_row(rows, a, merged)
     end do
     call swap_rows(rows, merged)
-    call swap_rows(contact%spare, left)
+    call swap_rows(spare, left)
   end subroutine take_spare
 
   !> After a solve with force (2, m) on the interface: spare rows that are below their allowance
@@ -114,7 +113,7 @@ contains
     if (any(is_below)) then
       is_complete = .false.
       contact%tally%late_rows = contact%tally%late_rows + count(is_below)
-      call take_spare(contact, is_below, contact%rows)
+      call take_spare(contact%spare, is_below, contact%rows)
       contact%w_is_current = .false.
       call find_slots(contact%slot, contact%rows)
       if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
@@ -136,6 +135,11 @@ contains
     do k = 1, size(contact%interface_node)
       associate (i => contact%interface_node(k))
         contact%u_end(:, i) = u(:, i) + x(:, k)
+      end associate
+    end do
+    do k = 1, size(contact%carried, 2)
+      associate (i => contact%carried(1, k), j => contact%carried(2, k))
+        contact%u_end(:, i) = u(:, i) + (contact%u_end(:, j) - u(:, j))
       end associate
     end do
   end subroutine place_end

@@ -107,30 +107,45 @@ contains
   end subroutine place_trees
 
   !> Near nodes and the nodes of their edges, with one more edge on either side, so that sliding
-  !> does not outgrow the interface at once.
-  subroutine node_mark_interface(this, model, taken)
+  !> does not outgrow the interface at once. Beyond a convex corner the next edge has no rows: its
+  !> far node is carried along with the corner.
+  subroutine node_mark_interface(this, model, taken, carrier)
     class(pairing_node_t), intent(in) :: this
     type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
+    integer, intent(inout) :: carrier(:)
     integer :: i, j, s, side, next
     do side = 1, merge(1, 2, this%is_self)
       associate (near => this%near(side), obstacle => this%side(facing_side(this, side)))
+        taken(this%side(side)%node(near%node(:near%n))) = .true.
         do i = 1, near%n
-          taken(this%side(side)%node(near%node(i))) = .true.
           do j = near%first(i), near%first(i + 1) - 1
             taken(obstacle%end_node(:, near%edge(j))) = .true.
             do s = 1, 2
               next = obstacle%neighbour(s, near%edge(j))
               if (next == 0) cycle
-              if (dot_product(obstacle%normal(:, next), &
-                  obstacle%normal(:, near%edge(j))) < half) cycle
-              taken(obstacle%end_node(:, next)) = .true.
+              if (is_sharp(obstacle, near%edge(j), next, s)) then
+                carrier(obstacle%end_node(s, next)) = obstacle%end_node(s, near%edge(j))
+              else
+                taken(obstacle%end_node(:, next)) = .true.
+              end if
             end do
           end do
         end do
       end associate
     end do
   end subroutine node_mark_interface
+
+  !> Is the boundary convex by more than 60 degrees between an edge and that before it (s = 1) or
+  !> behind it (s = 2)?
+  pure logical function is_sharp(surface, edge, next, s)
+    type(surface_t), intent(in) :: surface
+    integer, intent(in) :: edge, next, s
+    associate (a => surface%normal(:, edge), b => surface%normal(:, next))
+      is_sharp = dot_product(a, b) < half .and. &
+          (a(1)*b(2) - a(2)*b(1))*merge(one, -one, s == 2) > zero
+    end associate
+  end function is_sharp
 
   !> Nodes of edges in front of which, along their normal and within their width, some part of
   !> the other surface stands.

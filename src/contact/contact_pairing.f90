@@ -95,7 +95,7 @@ module contact_pairing
     type(node_forces_t), allocatable :: nodal  !< only where the table NCFORC is asked for
   contains
     procedure(list_i), deferred :: list
-    procedure(mark_i), deferred :: mark_interface
+    procedure(interface_i), deferred :: mark_interface
     procedure(mark_i), deferred :: mark_contact_nodes
     procedure(append_i), deferred :: append_rows
     procedure(late_i), deferred :: find_late
@@ -116,8 +116,16 @@ module contact_pairing
       type(model_t), intent(in) :: model
       real(wp), intent(in) :: u(:, :), reach
     end subroutine list_i
-    !> Marks nodes of the model: those that listed rows may involve, or those that can ever
-    !> touch (REDIST).
+    !> Marks nodes of the model that listed rows may involve. carrier (nodes): of a node that is
+    !> only looked at, the one it moves along with.
+    subroutine interface_i(this, model, taken, carrier)
+      import :: pairing_t, model_t
+      class(pairing_t), intent(in) :: this
+      type(model_t), intent(in) :: model
+      logical, intent(inout) :: taken(:)
+      integer, intent(inout) :: carrier(:)
+    end subroutine interface_i
+    !> Marks nodes of the model that can ever touch (REDIST).
     subroutine mark_i(this, model, taken)
       import :: pairing_t, model_t
       class(pairing_t), intent(in) :: this

@@ -174,7 +174,11 @@ contains
       if (s == 1 .and. sight%at(other) > 0 .and. sight%at(other) <= listed) cycle
       vertex = obstacle%end_node(s, sight%edge(j))
       y = difference(x, u, own%node(k), vertex)
-      if (y(1)**2 + y(2)**2 > view%reach**2) cycle
+      if (y(1)**2 + y(2)**2 > view%reach**2) then
+        ! The side wall of a body holds nodes that stand on its top, however far the corner is.
+        if (sight%at(other) == 0 .or. .not. sight%is_kept(j)) cycle
+        if (.not. sight%is_kept(sight%at(other))) cycle
+      end if
       if (view%may_share) then
         if (is_excluded(obstacle, other, own%node(k), own%chain(:, k))) cycle
       end if

@@ -78,14 +78,15 @@ contains
     type(contact_t), intent(inout) :: contact
     logical, intent(out) :: new_interface
     logical :: taken(model%nodes)
-    integer :: p
+    integer :: carrier(model%nodes), p, k
     taken = .false.
+    carrier = 0
     contact%listed = 0
     do p = 1, size(contact%pairing)
       if (.not. contact%acts(p)) cycle
       associate (pairing => contact%pairing(p)%item)
         contact%listed = contact%listed + pairing%listed
-        if (pairing%listed > 0) call pairing%mark_interface(model, taken)
+        if (pairing%listed > 0) call pairing%mark_interface(model, taken, carrier)
       end associate
     end do
     if (allocated(contact%late)) then
@@ -94,6 +95,9 @@ contains
     if (.not. allocated(contact%late)) allocate (contact%late(4*contact%listed + 8))
     new_interface = any(taken .and. contact%slot == 0)
     if (new_interface) call make_interface(contact, taken)
+    where (contact%slot > 0) carrier = 0
+    contact%carried = reshape([pack([(k, k=1, model%nodes)], carrier > 0), &
+        pack(carrier, carrier > 0)], [2, count(carrier > 0)], order=[2, 1])
   end subroutine use_lists
 
   !> A search is due when something off the list may touch before the end of the coming step:

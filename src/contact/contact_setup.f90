@@ -37,6 +37,7 @@ contains
     call start_rows(contact%before)
     allocate (contact%interface_node(0), contact%slot(model%nodes))
     allocate (contact%free(2, model%nodes), contact%u_end(2, model%nodes))
+    allocate (contact%carried(2, 0))
     contact%slot = 0
     contact%free = zero
     contact%u_end = zero

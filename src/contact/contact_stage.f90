@@ -21,7 +21,7 @@ module contact_stage
   public :: solve_contact, correct_contact, settle_contact
 
   !> Most rounds of a step: each adds rows that the one before has shown to be missing.
-  integer, parameter :: most_rounds = 12
+  integer, parameter :: most_rounds = 20
 
 contains
 
@@ -47,6 +47,7 @@ contains
     do round = 1, most_rounds
       call solve_rows(model, contact, x_free, largest, round, force, acting, status)
       if (failed(status)) return
+      if (round == most_rounds) exit
       call add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
       if (is_complete) exit
     end do
@@ -167,6 +168,7 @@ contains
     contact%tally%sweeps_since_row = contact%tally%sweeps_since_row + certificate%sweeps
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
+        rows%r(:, a) = zero    ! a frame that has turned may have left a tangential part
         rows%r(1:contact%d, a) = contact%r(:, k)
         rows%status(a) = contact%work%status(k)
         if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open

@@ -39,6 +39,7 @@ module contact_types
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
+    integer, allocatable :: carried(:, :)         !< (2, *) node, and the interface node it follows
     !> (2, nodes) motion of the free step and displacement at the end of the step with contact,
     !> right at interface nodes only [L]
     real(wp), allocatable :: free(:, :), u_end(:, :)

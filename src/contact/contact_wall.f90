@@ -62,10 +62,11 @@ contains
     this%near%n = this%listed
   end subroutine wall_list
 
-  subroutine wall_mark_interface(this, model, taken)
+  subroutine wall_mark_interface(this, model, taken, carrier)
     class(pairing_wall_t), intent(in) :: this
     type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
+    integer, intent(inout) :: carrier(:)
     taken(this%side(1)%node(this%near%node(:this%near%n))) = .true.
   end subroutine wall_mark_interface
 

@@ -71,6 +71,9 @@ contains
     call evaluate_ledger(model, system, state, ledger)
     ledger%initial = ledger%total
     ledger%worst_residual = zero
+    ledger%growth = zero
+    ledger%largest_growth = zero
+    ledger%lowest = ledger%total
     call balance(ledger)
   end subroutine make_ledger
 
