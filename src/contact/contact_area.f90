@@ -44,7 +44,7 @@ contains
   subroutine find_all_areas(model, contact, u)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     integer :: p
     do p = 1, size(contact%pairing)
       if (allocated(contact%pairing(p)%item%nodal)) &
@@ -58,7 +58,7 @@ contains
   subroutine find_areas(model, pairing, u)
     type(model_t), intent(in) :: model
     class(pairing_t), intent(inout) :: pairing
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     integer :: s, t
     pairing%nodal%area = zero
     do s = 1, 2
@@ -77,7 +77,7 @@ contains
   subroutine cover_side(model, own, other, u, is_wall, is_near, area)
     type(model_t), intent(in) :: model
     type(surface_t), intent(in) :: own, other
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     logical, intent(in) :: is_wall, is_near(:)
     real(wp), intent(inout) :: area(:)
     real(wp) :: whole(size(own%node)), low(size(other%length)), high(size(other%length))
@@ -115,7 +115,7 @@ contains
   subroutine covering(own, other, e, x, u, low, high, n)
     type(surface_t), intent(in) :: own, other
     integer, intent(in) :: e
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp), intent(inout) :: low(:), high(:)
     integer, intent(out) :: n
     real(wp) :: normal(2), d(2), s(2), g(2), length

@@ -24,7 +24,7 @@ contains
   subroutine find_rows(model, contact, u, x_free)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), x_free(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), x_free(:, :)
     integer :: p, k
     do k = 1, size(contact%interface_node)
       contact%free(:, contact%interface_node(k)) = x_free(:, k)
@@ -93,7 +93,7 @@ contains
   subroutine add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), x_free(:, :), force(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), x_free(:, :), force(:, :)
     logical, intent(in) :: acting
     logical, intent(out) :: is_complete
     logical :: is_below(contact%spare%n)
@@ -130,7 +130,7 @@ contains
   !> Displacement of the interface nodes at the end of a step of motion x (2, m).
   pure subroutine place_end(contact, u, x)
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), x(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), x(:, :)
     integer :: k
     do k = 1, size(contact%interface_node)
       associate (i => contact%interface_node(k))
@@ -147,7 +147,7 @@ contains
   subroutine find_late(model, contact, u, n)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     integer, intent(out) :: n
     integer :: p
     n = 0

@@ -23,6 +23,8 @@ module contact_features
     real(wp) :: middle(2) = zero   !< unit vector
     real(wp) :: half_width = zero  !< [radians]
     logical :: is_all = .false.    !< a node without a boundary of its own: every direction
+    real(wp) :: normal(2, 2) = zero !< of the boundary before and after the node
+    real(wp) :: turn = zero        !< between them
   end type cone_of_node_t
 
   !> An edge where it is now.
@@ -39,7 +41,7 @@ contains
   !> (x_i - x_j) + (u_i - u_j): positions and displacements apart, so that a small difference
   !> keeps its digits.
   pure function difference(x, u, i, j) result(d)
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: i, j
     real(wp) :: d(2)
     d(1) = (x(1, i) - x(1, j)) + (u(1, i) - u(1, j))
@@ -50,14 +52,15 @@ contains
   pure subroutine edge_frame(surface, edge, x, u, is_reference, frame)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: edge
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     logical, intent(in) :: is_reference
     type(frame_t), intent(out) :: frame
     real(wp) :: d(2), n(2), length
     associate (a => surface%end_node(1, edge), b => surface%end_node(2, edge))
       n = surface%normal(:, edge)
       if (.not. is_reference) then
-        d = difference(x, u, b, a)
+        d(1) = (x(1, b) - x(1, a)) + (u(1, b) - u(1, a))
+        d(2) = (x(2, b) - x(2, a)) + (u(2, b) - u(2, a))
         length = sqrt(d(1)**2 + d(2)**2)
         if (length > zero) then
           d = [d(2), -d(1)]/length
@@ -76,7 +79,7 @@ contains
 
   !> Outward normal of the boundary from node a to node b, where it is now.
   pure function normal_between(x, u, a, b, is_reference) result(n)
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: a, b
     logical, intent(in) :: is_reference
     real(wp) :: n(2), d(2), r(2)
@@ -95,7 +98,7 @@ contains
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: edge, node
     type(frame_t), intent(in) :: frame
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     associate (a => surface%end_node(1, edge), n => frame%normal)
       local_coordinate = ((-n(2)*(x(1, node) - x(1, a)) + n(1)*(x(2, node) - x(2, a))) &
           + (-n(2)*(u(1, node) - u(1, a)) + n(1)*(u(2, node) - u(2, a))))/frame%span
@@ -106,7 +109,8 @@ contains
   pure real(wp) function gap_to_edge(surface, edge, normal, s, x, u, node)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: edge, node
-    real(wp), intent(in) :: normal(2), s, x(:, :), u(:, :)
+    real(wp), intent(in) :: normal(2), s
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     associate (a => surface%end_node(1, edge), b => surface%end_node(2, edge))
       gap_to_edge = (normal(1)*((x(1, node) - x(1, a)) - s*(x(1, b) - x(1, a))) &
           + normal(2)*((x(2, node) - x(2, a)) - s*(x(2, b) - x(2, a)))) &
@@ -118,7 +122,8 @@ contains
   !> The same for a row of points and weights (1 of the contactor first, sum 0).
   pure real(wp) function gap_to_place(point, weight, normal, x, u)
     integer, intent(in) :: point(:)
-    real(wp), intent(in) :: weight(:), normal(2), x(:, :), u(:, :)
+    real(wp), intent(in) :: weight(:), normal(2)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp) :: d(2), e(2)
     integer :: k
     d = x(:, point(1)) - x(:, point(2))
@@ -132,27 +137,26 @@ contains
 
   !> Cone of row k of the nodes of a surface: the directions between the normals of the boundary
   !> before and after it; where the boundary is smooth or reflex the mean normal alone.
-  pure subroutine cone_of_node(surface, k, x, u, is_reference, cone, normals)
+  pure subroutine cone_of_node(surface, k, x, u, is_reference, cone)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: k
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     logical, intent(in) :: is_reference
     type(cone_of_node_t), intent(out) :: cone
-    real(wp), intent(out), optional :: normals(2, 2)
     real(wp) :: a(2), b(2), turn
     associate (before => surface%chain(1, k), node => surface%node(k), &
         after => surface%chain(2, k))
       cone%is_all = before == 0 .or. after == 0
-      if (present(normals)) normals = zero
       if (cone%is_all) return
       a = normal_between(x, u, before, node, is_reference)
       b = normal_between(x, u, node, after, is_reference)
     end associate
-    if (present(normals)) normals(:, 1) = a
-    if (present(normals)) normals(:, 2) = b
+    cone%normal(:, 1) = a
+    cone%normal(:, 2) = b
     turn = zero
     if (abs(a(1) - b(1)) + abs(a(2) - b(2)) > zero) turn = turn_between(a, b)
     cone%middle = a + b
+    cone%turn = turn
     if (abs(turn) > 2.5_wp) cone%middle = sign(one, turn)*[-a(2) + b(2), a(1) - b(1)]
     cone%middle = cone%middle/sqrt(cone%middle(1)**2 + cone%middle(2)**2)
     if (turn > smooth_angle) cone%half_width = half*turn

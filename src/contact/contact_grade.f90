@@ -4,8 +4,8 @@
 !> locally the finer side is exact, and of two nodes that meet each other one.
 module contact_grade
   use base_kinds, only: wp, zero, one
-  use contact_features, only: normal_between, smooth_angle, degree
-  use contact_places, only: place_t, allowance_of, size_of_node, corner
+  use contact_features, only: cone_of_node_t, smooth_angle, degree
+  use contact_places, only: place_t, corner
   use contact_surface, only: surface_t
   implicit none
   private
@@ -14,7 +14,9 @@ module contact_grade
   integer, parameter, public :: finer_auto = 0, finer_both = 3   !< 1, 2: that side
 
   real(wp), parameter :: equal_size = 1.0e-6_wp
-  real(wp), parameter :: flat = 3.0_wp*degree      !< a face that lies on another
+  !> A face that lies on another: 3 degrees.
+  real(wp), parameter :: cosine_of_flat = cos(3.0_wp*degree)
+  real(wp), parameter :: cosine_of_smooth = cos(smooth_angle)
   real(wp), parameter :: twin = 0.1_wp             !< edges: a node that meets a node
   real(wp), parameter :: sharper = 1.0_wp*degree
 
@@ -22,27 +24,22 @@ contains
 
   !> Grade and allowance of a place of row k of the nodes of `own`. finer: the side whose nodes
   !> are exact, by the deck (finer_auto: by their sizes).
-  pure subroutine grade_place(own, obstacle, k, finer, x, u, is_reference, place)
+  pure subroutine grade_place(own, obstacle, k, finer, cone, place)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, finer
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    logical, intent(in) :: is_reference
+    type(cone_of_node_t), intent(in) :: cone
     type(place_t), intent(inout) :: place
-    real(wp) :: own_size
-    own_size = size_of_node(own, k, place%normal, x, u, is_reference)
-    place%allowance = &
-        allowance_of(own, k, place%normal, place%length, x, u, is_reference)
-    if (finer == finer_both .or. .not. own_size > zero) then
+    if (finer == finer_both .or. .not. place%own_size > zero) then
       place%is_exact = .true.
     else if (finer /= finer_auto) then
       place%is_exact = place%side == finer
-    else if (abs(own_size - place%length) <= equal_size*place%length) then
+    else if (abs(place%own_size - place%length) <= equal_size*place%length) then
       place%is_exact = wins_tie(own, obstacle, k, place)
     else
-      place%is_exact = own_size < place%length
+      place%is_exact = place%own_size < place%length
     end if
     if (place%is_exact .or. .not. own%turn(k) > corner) return
-    place%is_exact = .not. lies_flat(own, k, place, x, u, is_reference)
+    place%is_exact = .not. lies_flat(own, k, place, cone)
   end subroutine grade_place
 
   !> Of equal sizes SURFA is exact; within one surface the part of lower id, then the body of
@@ -68,31 +65,27 @@ contains
 
   !> A corner whose own face lies on the edge, no shorter than the edge: the finer nodes of the
   !> other side stand within reach of it.
-  pure logical function lies_flat(own, k, place, x, u, is_reference)
+  pure logical function lies_flat(own, k, place, cone)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k
     type(place_t), intent(in) :: place
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    logical, intent(in) :: is_reference
-    real(wp) :: n(2)
+    type(cone_of_node_t), intent(in) :: cone
     integer :: s
     lies_flat = .false.
     if (place%vertex > 0) return
     do s = 1, 2
-      if (s == 1) n = normal_between(x, u, own%chain(1, k), own%node(k), is_reference)
-      if (s == 2) n = normal_between(x, u, own%node(k), own%chain(2, k), is_reference)
-      if (-dot_product(n, place%normal) >= cos(flat) .and. &
-          place%length <= own%chain_length(s, k)*(one + equal_size)) lies_flat = .true.
+      if (place%length > own%chain_length(s, k)*(one + equal_size)) cycle
+      if (-dot_product(cone%normal(:, s), place%normal) >= cosine_of_flat) lies_flat = .true.
     end do
   end function lies_flat
 
   !> Two nodes that meet each other: the more convex one stays, then that of the shorter edges,
   !> then SURFA's; its normal is the mean of the two, so that a mirrored scene is mirrored. The
   !> other keeps an allowance. first (2): places of side 1 end where those of side 2 begin.
-  pure subroutine settle_twins(side, is_self, x, u, is_reference, place, n_first, n)
+  pure subroutine settle_twins(side, is_self, x, u, place, n_first, n)
     type(surface_t), intent(in) :: side(2)
-    logical, intent(in) :: is_self, is_reference
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    logical, intent(in) :: is_self
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: n_first, n
     type(place_t), intent(inout) :: place(:)
     integer :: a, b, vertex, low
@@ -104,8 +97,7 @@ contains
       do while (b > 0 .and. b <= n)
         if (place(b)%node /= vertex) exit
         if (is_twin(side(1), place(a), place(b))) then
-          call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, is_reference, place(a), &
-              place(b))
+          call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, place(a), place(b))
           exit
         end if
         b = b + 1
@@ -150,7 +142,7 @@ contains
     type(surface_t), intent(in) :: side_1
     type(place_t), intent(in) :: p, q
     is_twin = .false.
-    if (dot_product(p%normal, q%normal) >= -cos(smooth_angle)) return
+    if (dot_product(p%normal, q%normal) >= -cosine_of_smooth) return
     is_twin = distance_at(side_1, q, p%node) <= twin*min(p%length, q%length)
   end function is_twin
 
@@ -169,22 +161,19 @@ contains
     end if
   end function distance_at
 
-  pure subroutine settle_pair(side_a, side_b, x, u, is_reference, a, b)
+  pure subroutine settle_pair(side_a, side_b, x, u, a, b)
     type(surface_t), intent(in) :: side_a, side_b
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    logical, intent(in) :: is_reference
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(place_t), intent(inout) :: a, b
-    real(wp) :: size_a, size_b, turn_a, turn_b
+    real(wp) :: turn_a, turn_b
     logical :: a_stays, is_exact
     turn_a = side_a%turn(side_a%index(a%node))
     turn_b = side_b%turn(side_b%index(b%node))
-    size_a = size_of_node(side_a, side_a%index(a%node), a%normal, x, u, is_reference)
-    size_b = size_of_node(side_b, side_b%index(b%node), b%normal, x, u, is_reference)
     a_stays = .true.
     if (abs(turn_a - turn_b) > sharper) then
       a_stays = turn_a > turn_b
-    else if (abs(size_a - size_b) > equal_size*max(size_a, size_b)) then
-      a_stays = size_a < size_b
+    else if (abs(a%own_size - b%own_size) > equal_size*max(a%own_size, b%own_size)) then
+      a_stays = a%own_size < b%own_size
     else if (a%side == b%side) then
       a_stays = a%is_exact .or. .not. b%is_exact
     end if
@@ -198,7 +187,8 @@ contains
   !> normal = mean of it and of the other's, reversed; gap anew.
   pure subroutine take_mean(obstacle, x, u, other, place)
     type(surface_t), intent(in) :: obstacle
-    real(wp), intent(in) :: x(:, :), u(:, :), other(2)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp), intent(in) :: other(2)
     type(place_t), intent(inout) :: place
     real(wp) :: n(2), weight(3), d(2), e(2)
     integer :: point(3), points

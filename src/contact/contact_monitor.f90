@@ -22,7 +22,7 @@ contains
   subroutine check_listed(model, contact, u, cycle, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     integer, intent(in) :: cycle
     type(status_t), intent(inout) :: status
     integer :: p
@@ -44,7 +44,7 @@ contains
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: p, cycle
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(status_t), intent(inout) :: status
     real(wp) :: accepted
     associate (pairing => contact%pairing(p)%item)
@@ -58,7 +58,7 @@ contains
   subroutine check_all(model, contact, u, cycle, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     integer, intent(in) :: cycle
     type(status_t), intent(inout) :: status
     integer :: p
@@ -113,7 +113,7 @@ contains
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: p, cycle
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(status_t), intent(inout) :: status
     real(wp) :: accepted
     associate (pairing => contact%pairing(p)%item)

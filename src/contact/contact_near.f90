@@ -39,7 +39,8 @@ contains
       distance, turned)
     type(surface_t), intent(in) :: own, obstacle
     type(tree_t), intent(in) :: tree
-    real(wp), intent(in) :: x(:, :), u(:, :), reach
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp), intent(in) :: reach
     logical, intent(in) :: may_share, leaves_out(:, :)
     type(near_t), intent(inout) :: near
     real(wp), intent(out) :: distance
@@ -127,7 +128,7 @@ contains
   pure subroutine keep_facing(own, obstacle, k, x, u, cone, may_share, found, n, turned)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(cone_of_node_t), intent(in) :: cone
     logical, intent(in) :: may_share
     integer, intent(inout) :: found(:), n
@@ -151,7 +152,7 @@ contains
   pure function normal_of(surface, edge, x, u) result(n)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: edge
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp) :: n(2)
     n = normal_between(x, u, surface%end_node(1, edge), surface%end_node(2, edge), .false.)
   end function normal_of
@@ -161,7 +162,7 @@ contains
   pure logical function vertex_faces(obstacle, edge, x, u, cone)
     type(surface_t), intent(in) :: obstacle
     integer, intent(in) :: edge
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(cone_of_node_t), intent(in) :: cone
     real(wp) :: n1(2), n2(2), turn, middle
     vertex_faces = .false.

@@ -9,7 +9,7 @@ module contact_node
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
   use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, deepest_crossing
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
-  use contact_places, only: place_t, sight_t, view_t, find_places, size_sight
+  use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
   use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
   use contact_surface, only: surface_t
   use contact_tree, only: tree_t, build_tree, refit_tree
@@ -55,7 +55,8 @@ contains
   subroutine node_list(this, model, u, reach)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :), reach
+    real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in) :: reach
     real(wp) :: distance
     logical :: turned, some_turned
     integer :: s
@@ -93,7 +94,7 @@ contains
   !> The trees of both sides at X + U.
   subroutine place_trees(this, x, u)
     type(pairing_node_t), intent(inout) :: this
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp), allocatable :: a(:, :), b(:, :)
     integer :: s
     do s = 1, merge(1, 2, this%is_self)
@@ -184,7 +185,7 @@ contains
   subroutine node_append_rows(this, model, u, free, rows, spare)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), free(:, :)
     type(rows_t), intent(inout) :: rows, spare
     type(view_t) :: view
     integer :: s, n_first
@@ -200,14 +201,14 @@ contains
       if (s == 1) n_first = this%places
     end do
     if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u, &
-        this%is_reference, this%place, n_first, this%places)
+        this%place, n_first, this%places)
     call emit_rows(this, rows, spare)
   end subroutine node_append_rows
 
   !> Bound of the motion of any two near nodes relative to each other [L].
   pure real(wp) function relative_motion(this, free)
     type(pairing_node_t), intent(in) :: this
-    real(wp), intent(in) :: free(:, :)
+    real(wp), intent(in), contiguous :: free(:, :)
     real(wp) :: mean(2), d(2), spread
     integer :: s, i
     mean = zero
@@ -232,7 +233,7 @@ contains
     type(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
     integer, intent(in) :: s
-    real(wp), intent(in) :: u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), free(:, :)
     type(view_t), intent(in) :: view
     real(wp) :: gap
     integer :: i, edge
@@ -261,14 +262,15 @@ contains
     type(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
     integer, intent(in) :: s, k
-    real(wp), intent(in) :: u(:, :), distance
+    real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in) :: distance
     type(place_t) :: place
     integer :: j
     associate (own => this%side(s), obstacle => this%side(facing_side(this, s)))
       do j = 1, this%sight%places
         place = this%sight%place(j)
         place%side = s
-        call grade_place(own, obstacle, k, this%finer, model%x, u, this%is_reference, place)
+        call grade_place(own, obstacle, k, this%finer, this%sight%cone, place)
         if (distance > zero .and. place%gap < -place%allowance) cycle
         if (this%places == size(this%place)) call more_places(this)
         this%places = this%places + 1
@@ -331,7 +333,7 @@ contains
   subroutine node_find_late(this, model, u0, u1, rows, late, n)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u0(:, :), u1(:, :)
+    real(wp), intent(in), contiguous :: u0(:, :), u1(:, :)
     type(rows_t), intent(in) :: rows
     type(late_t), intent(inout) :: late(:)
     integer, intent(inout) :: n
@@ -348,7 +350,7 @@ contains
           associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
             if (near%front(i) == is_behind) cycle
             call true_gap(obstacle, list, model%x, u1, own%node(near%node(i)), gap, edge)
-            if (gap >= zero) cycle
+            if (gap >= -least_allowance(own, obstacle, near%node(i), edge)) cycle
             call look_again(this, model%x, u1, s, near%node(i), gap, edge)
             if (gap >= zero) cycle
             call find_places(own, obstacle, near%node(i), list, model%x, u1, u1, view, &
@@ -356,8 +358,8 @@ contains
           end associate
           do j = 1, this%sight%places
             this%sight%place(j)%side = s
-            call grade_place(own, obstacle, near%node(i), this%finer, model%x, u1, &
-                this%is_reference, this%sight%place(j))
+            call grade_place(own, obstacle, near%node(i), this%finer, this%sight%cone, &
+                this%sight%place(j))
             call judge_late(this, model, u0, this%sight%place(j), rows, late, n)
           end do
         end do
@@ -365,11 +367,19 @@ contains
     end do
   end subroutine node_find_late
 
+  !> No node may be less deep than this and still need a row [L].
+  pure real(wp) function least_allowance(own, obstacle, k, edge)
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, edge
+    least_allowance = too_deep*share_at_corner &
+        *min(obstacle%shortest, obstacle%length(edge), shortest_of(own, k, obstacle%shortest))
+  end function least_allowance
+
   !> A place at the end of the step against the rows of its node.
   subroutine judge_late(this, model, u0, place, rows, late, n)
     type(pairing_node_t), intent(in) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u0(:, :)
+    real(wp), intent(in), contiguous :: u0(:, :)
     type(place_t), intent(in) :: place
     type(rows_t), intent(in) :: rows
     type(late_t), intent(inout) :: late(:)
@@ -405,7 +415,7 @@ contains
   subroutine node_measure(this, model, u, overlap)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(overlap_t), intent(inout) :: overlap
     real(wp) :: gap
     integer :: s, i, edge
@@ -439,7 +449,7 @@ contains
   !> that may face it, and the far side of a thin body may be among them.
   pure subroutine look_again(this, x, u, s, k, gap, edge)
     class(pairing_node_t), intent(in) :: this
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: s, k
     real(wp), intent(inout) :: gap
     integer, intent(inout) :: edge
@@ -477,7 +487,7 @@ contains
   subroutine node_measure_whole(this, model, u, overlap, accepted)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(overlap_t), intent(inout) :: overlap
     real(wp), intent(out) :: accepted
     logical :: found
@@ -505,7 +515,7 @@ contains
     type(pairing_node_t), intent(in) :: this
     type(model_t), intent(in) :: model
     integer, intent(in) :: s, t
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(overlap_t), intent(inout) :: overlap
     real(wp) :: gap
     integer :: i, edge
@@ -523,7 +533,7 @@ contains
   !> ten columns hold seven digits of a coordinate.
   pure real(wp) function accepted_overlap(this, x, u)
     type(pairing_node_t), intent(in) :: this
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp) :: low(2), high(2), p(2), shortest
     integer :: s, k
     low = huge(one)

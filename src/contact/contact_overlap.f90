@@ -25,7 +25,7 @@ contains
   pure subroutine true_gap(obstacle, list, x, u, node, gap, edge)
     type(surface_t), intent(in) :: obstacle
     integer, intent(in) :: list(:), node
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp), intent(out) :: gap
     integer, intent(out) :: edge
     real(wp) :: d(2), y(2), s, length_2, distance_2, best, cross
@@ -36,8 +36,10 @@ contains
     place = 0
     do j = 1, size(list)
       associate (a => obstacle%end_node(1, list(j)), b => obstacle%end_node(2, list(j)))
-        d = difference(x, u, b, a)
-        y = difference(x, u, node, a)
+        d(1) = (x(1, b) - x(1, a)) + (u(1, b) - u(1, a))
+        d(2) = (x(2, b) - x(2, a)) + (u(2, b) - u(2, a))
+        y(1) = (x(1, node) - x(1, a)) + (u(1, node) - u(1, a))
+        y(2) = (x(2, node) - x(2, a)) + (u(2, node) - u(2, a))
         length_2 = d(1)**2 + d(2)**2
         s = d(1)*y(1) + d(2)*y(2)
         at = 0
@@ -46,7 +48,7 @@ contains
           distance_2 = y(1)**2 + y(2)**2
         else if (s >= length_2) then
           at = 2
-          y = difference(x, u, node, b)
+          y = y - d
           distance_2 = y(1)**2 + y(2)**2
         else
           distance_2 = (d(2)*y(1) - d(1)*y(2))**2/length_2
@@ -72,7 +74,7 @@ contains
   pure logical function is_behind_vertex(obstacle, edge, place, x, u, node)
     type(surface_t), intent(in) :: obstacle
     integer, intent(in) :: edge, place, node
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp) :: a(2), b(2), y(2), turn, g(2)
     integer :: other
     other = obstacle%neighbour(place, edge)
@@ -98,7 +100,7 @@ contains
   !> to it. Edges of one body may be left out (0 = none).
   pure subroutine confirm_inside(obstacle, x, u, node, without, is_inside, depth, edge)
     type(surface_t), intent(in) :: obstacle
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: node, without
     logical, intent(out) :: is_inside
     real(wp), intent(out) :: depth
@@ -131,7 +133,7 @@ contains
   pure subroutine open_gap(own, obstacle, k, list, x, u, gap, edge)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, list(:)
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp), intent(out) :: gap
     integer, intent(out) :: edge
     type(cone_of_node_t) :: cone
@@ -173,7 +175,7 @@ contains
   subroutine deepest_node(own, obstacle, tree, x, u, is_self, leaves_out, overlap, found)
     type(surface_t), intent(in) :: own, obstacle
     type(tree_t), intent(in) :: tree
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     logical, intent(in) :: is_self, leaves_out(:, :)
     type(overlap_t), intent(inout) :: overlap
     logical, intent(inout) :: found
@@ -233,7 +235,7 @@ contains
   subroutine deepest_crossing(own, obstacle, tree, x, u, is_self, leaves_out, overlap)
     type(surface_t), intent(in) :: own, obstacle
     type(tree_t), intent(in) :: tree
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     logical, intent(in) :: is_self, leaves_out(:, :)
     type(overlap_t), intent(inout) :: overlap
     integer, allocatable :: found(:)

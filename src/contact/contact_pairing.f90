@@ -114,7 +114,8 @@ module contact_pairing
       import :: pairing_t, model_t, wp
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u(:, :), reach
+      real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in) :: reach
     end subroutine list_i
     !> Marks nodes of the model that listed rows may involve. carrier (nodes): of a node that is
     !> only looked at, the one it moves along with.
@@ -138,7 +139,7 @@ module contact_pairing
       import :: pairing_t, model_t, rows_t, wp
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u(:, :), free(:, :)
+      real(wp), intent(in), contiguous :: u(:, :), free(:, :)
       type(rows_t), intent(inout) :: rows, spare
     end subroutine append_i
     !> What the solved end of the step u1 shows to be missing; u0 its start.
@@ -146,7 +147,7 @@ module contact_pairing
       import :: pairing_t, model_t, rows_t, late_t, wp
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u0(:, :), u1(:, :)
+      real(wp), intent(in), contiguous :: u0(:, :), u1(:, :)
       type(rows_t), intent(in) :: rows
       type(late_t), intent(inout) :: late(:)
       integer, intent(inout) :: n
@@ -156,7 +157,7 @@ module contact_pairing
       import :: pairing_t, model_t, overlap_t, wp
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u(:, :)
+      real(wp), intent(in), contiguous :: u(:, :)
       type(overlap_t), intent(inout) :: overlap
     end subroutine measure_i
     !> The deepest overlap of all nodes and edges at u, listed or not. accepted [L]: what the
@@ -165,7 +166,7 @@ module contact_pairing
       import :: pairing_t, model_t, overlap_t, wp
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
-      real(wp), intent(in) :: u(:, :)
+      real(wp), intent(in), contiguous :: u(:, :)
       type(overlap_t), intent(inout) :: overlap
       real(wp), intent(out) :: accepted
     end subroutine whole_i

@@ -6,7 +6,7 @@
 module contact_places
   use base_kinds, only: wp, zero, one, half
   use contact_features, only: cone_of_node_t, frame_t, edge_frame, local_coordinate, &
-      gap_to_edge, cone_of_node, normal_between, faces, difference, facing_angle, &
+      gap_to_edge, cone_of_node, faces, difference, facing_angle, &
       smooth_angle, end_tolerance, degree
   use contact_surface, only: surface_t, turn_between
   implicit none
@@ -22,6 +22,7 @@ module contact_places
     real(wp) :: normal(2) = zero
     real(wp) :: gap = zero           !< at the start of the step [L]
     real(wp) :: length = zero        !< of the edge, the shorter of two at a vertex [L]
+    real(wp) :: own_size = zero      !< of the node's edges that face it [L]
     real(wp) :: allowance = zero     !< what it may go below zero [L]
     logical :: is_exact = .false.    !< gap >= 0; else a row only below the allowance
     logical :: is_second = .false.   !< not the nearest of its node
@@ -38,6 +39,7 @@ module contact_places
     logical, allocatable :: is_kept(:)     !< its place makes a row
     type(place_t), allocatable :: place(:) !< found so far, for this node
     integer :: places = 0
+    type(cone_of_node_t) :: cone           !< of the node
   end type sight_t
 
   !> What stays the same for all nodes of a side.
@@ -50,11 +52,13 @@ module contact_places
   real(wp), parameter :: deepest = 0.3_wp          !< edges: a deeper node is not before it
   real(wp), parameter :: narrow = 3.0_wp*degree    !< two faces that lie on each other
   real(wp), parameter :: empty = 10.0_wp*degree    !< cones that miss each other by more
-  real(wp), parameter :: corner = 20.0_wp*degree   !< a sharper one is watched exactly
+  real(wp), parameter, public :: corner = 20.0_wp*degree   !< a sharper one is watched exactly
   real(wp), parameter :: never = 1.0e9_wp          !< steps
-  real(wp), parameter :: share_of_edge = 1.0e-3_wp, share_at_corner = 2.0e-4_wp
+  !> Allowances / shorter edge.
+  real(wp), parameter :: share_of_edge = 1.0e-3_wp
+  real(wp), parameter, public :: share_at_corner = 2.0e-4_wp
 
-  public :: find_places, size_sight, is_excluded, allowance_of, size_of_node, corner
+  public :: find_places, size_sight, is_excluded
 
 contains
 
@@ -90,18 +94,16 @@ contains
   subroutine find_places(own, obstacle, k, list, x, u, free, view, sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, list(:)
-    real(wp), intent(in) :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
     type(view_t), intent(in) :: view
     type(sight_t), intent(inout) :: sight
     type(cone_of_node_t) :: cone
-    real(wp) :: own_normal(2, 2)
     integer :: j
     sight%places = 0
     sight%n = 0
-    call cone_of_node(own, k, x, u, view%is_reference, cone, own_normal)
-    if (.not. cone%is_all) then    ! a reflex vertex is never hit first
-      if (turn_between(own_normal(:, 1), own_normal(:, 2)) < -corner) return
-    end if
+    call cone_of_node(own, k, x, u, view%is_reference, cone)
+    sight%cone = cone
+    if (cone%turn < -corner) return    ! a reflex vertex is never hit first
     do j = 1, size(list)
       call see_edge(own, obstacle, k, list(j), x, u, view, cone, .true., sight)
     end do
@@ -113,6 +115,12 @@ contains
       sight%at(sight%edge(j)) = 0
     end do
     if (sight%places > 1) call merge_places(obstacle, x, u, sight)
+    do j = 1, sight%places
+      associate (p => sight%place(j))
+        p%own_size = size_of_node(own, k, cone, p%normal)
+        p%allowance = allowance_of(own, k, p%own_size, p%length)
+      end associate
+    end do
   end subroutine find_places
 
   !> An edge into the list: its frame, the node's place along it and gap, whether that makes a
@@ -120,7 +128,7 @@ contains
   pure subroutine see_edge(own, obstacle, k, edge, x, u, view, cone, may_keep, sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, edge
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     logical, intent(in) :: may_keep
@@ -162,7 +170,7 @@ contains
   subroutine look_at_vertices(own, obstacle, k, j, listed, x, u, free, view, cone, sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, j, listed
-    real(wp), intent(in) :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -197,7 +205,8 @@ contains
       sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, vertex, first, second
-    real(wp), intent(in) :: y(2), x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in) :: y(2)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -247,7 +256,8 @@ contains
       free, view, cone, sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, vertex, first, second
-    real(wp), intent(in) :: turn, shorter, y(2), x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in) :: turn, shorter, y(2)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -270,7 +280,8 @@ contains
       held = merge(first, second, in_first)
       beyond = merge(one - sight%s(first), sight%s(second), in_first) &
           *obstacle%length(sight%edge(held))
-      enough = allowance_of(own, k, sight%frame(held)%normal, shorter, x, u, view%is_reference)
+      enough = allowance_of(own, k, size_of_node(own, k, cone, sight%frame(held)%normal), &
+          shorter)
       if (beyond > enough) return
     end if
     call choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, x, u, free, &
@@ -285,7 +296,8 @@ contains
       free, view, cone, sight)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k, vertex, first, second, held
-    real(wp), intent(in) :: turn, shorter, y(2), x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in) :: turn, shorter, y(2)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -305,7 +317,7 @@ contains
     else
       call choose_normal(direction(middle, low), direction(middle, high), y, &
           free(:, own%node(k)) - free(:, vertex), &
-          allowance_of(own, k, middle, shorter, x, u, view%is_reference), shorter, n)
+          allowance_of(own, k, size_of_node(own, k, cone, middle), shorter), shorter, n)
     end if
     gap = dot_product(n, y)
     if (gap > view%reach .or. gap <= -deepest*shorter) return
@@ -381,38 +393,32 @@ contains
 
   !> Mean length of a node's own edges that face a normal (none: of both) [L]; 0 for a lone
   !> node, which is finer than any edge.
-  pure real(wp) function size_of_node(own, k, normal, x, u, is_reference)
+  pure real(wp) function size_of_node(own, k, cone, normal)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k
-    real(wp), intent(in) :: normal(2), x(:, :), u(:, :)
-    logical, intent(in) :: is_reference
+    type(cone_of_node_t), intent(in) :: cone
+    real(wp), intent(in) :: normal(2)
     real(wp), parameter :: facing_cosine = -0.7_wp
-    real(wp) :: c(2)
+    logical :: first, second
     size_of_node = zero
-    associate (chain => own%chain(:, k), length => own%chain_length(:, k))
-      if (any(chain == 0)) return
-      c(1) = dot_product(normal, normal_between(x, u, chain(1), own%node(k), is_reference))
-      c(2) = dot_product(normal, normal_between(x, u, own%node(k), chain(2), is_reference))
-      if (count(c < facing_cosine) == 1) then
-        size_of_node = merge(length(1), length(2), c(1) < facing_cosine)
-      else
-        size_of_node = half*(length(1) + length(2))
-      end if
+    if (cone%is_all) return
+    first = normal(1)*cone%normal(1, 1) + normal(2)*cone%normal(2, 1) < facing_cosine
+    second = normal(1)*cone%normal(1, 2) + normal(2)*cone%normal(2, 2) < facing_cosine
+    associate (length => own%chain_length(:, k))
+      size_of_node = half*(length(1) + length(2))
+      if (first .neqv. second) size_of_node = merge(length(1), length(2), first)
     end associate
   end function size_of_node
 
   !> What a node without an exact row may go below zero [L]: a small share of the shorter edge
   !> at hand.
-  pure real(wp) function allowance_of(own, k, normal, length, x, u, is_reference)
+  pure real(wp) function allowance_of(own, k, own_size, length)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k
-    real(wp), intent(in) :: normal(2), length, x(:, :), u(:, :)
-    logical, intent(in) :: is_reference
-    real(wp) :: own_size
-    own_size = size_of_node(own, k, normal, x, u, is_reference)
-    if (.not. own_size > zero) own_size = length
-    allowance_of = merge(share_at_corner, share_of_edge, own%turn(k) > corner) &
-        *min(own_size, length)
+    real(wp), intent(in) :: own_size, length
+    allowance_of = length
+    if (own_size > zero) allowance_of = min(own_size, length)
+    allowance_of = allowance_of*merge(share_at_corner, share_of_edge, own%turn(k) > corner)
   end function allowance_of
 
   pure subroutine add_vertex_place(node, vertex, edge, n, gap, length, sight)
@@ -427,7 +433,7 @@ contains
   pure subroutine add_edge_place(obstacle, node, j, x, u, sight)
     type(surface_t), intent(in) :: obstacle
     integer, intent(in) :: node, j
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(sight_t), intent(inout) :: sight
     real(wp) :: s
     s = clamped(min(one, max(zero, sight%s(j))))
@@ -441,7 +447,7 @@ contains
   !> that are as near their common vertex with the mean normal.
   pure subroutine merge_places(obstacle, x, u, sight)
     type(surface_t), intent(in) :: obstacle
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(sight_t), intent(inout) :: sight
     type(place_t) :: p
     integer :: i, j, kept
@@ -482,7 +488,7 @@ contains
   !> Two neighbouring edges as near as each other: q becomes their vertex.
   pure subroutine meet_at_vertex(obstacle, x, u, p, q)
     type(surface_t), intent(in) :: obstacle
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(place_t), intent(in) :: p
     type(place_t), intent(inout) :: q
     real(wp) :: n(2)

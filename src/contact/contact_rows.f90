@@ -292,7 +292,7 @@ contains
   pure function relative_displacement(rows, a, column, x) result(u)
     type(rows_t), intent(in) :: rows
     integer, intent(in) :: a, column(:)
-    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in), contiguous :: x(:, :)
     real(wp) :: u(2), d(2)
     integer :: k, reference
     d = x(:, column(rows%first(a)))

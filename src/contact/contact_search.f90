@@ -53,7 +53,8 @@ contains
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: p, cycle
-    real(wp), intent(in) :: u(:, :), reach
+    real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in) :: reach
     type(status_t), intent(inout) :: status
     contact%tally%searches = contact%tally%searches + 1
     contact%searched = p
@@ -149,7 +150,8 @@ contains
   subroutine relist_outrun(model, contact, u, x, v, h, cycle, again, new_interface, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), x(:, :), v(:, :), h
+    real(wp), intent(in), contiguous :: u(:, :), x(:, :), v(:, :)
+    real(wp), intent(in) :: h
     integer, intent(in) :: cycle
     logical, intent(out) :: again, new_interface
     type(status_t), intent(inout) :: status
@@ -190,7 +192,7 @@ contains
   !> The bound of the motion at the end of the step.
   subroutine motion_at_end(pairing, u, x, moved)
     class(pairing_t), intent(in) :: pairing
-    real(wp), intent(in) :: u(:, :), x(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), x(:, :)
     real(wp), intent(out) :: moved
     real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b
     call side_motion_at_end(pairing%side(1)%node, pairing%reference_1, u, x, mean_a, spread_a)
@@ -204,7 +206,7 @@ contains
 
   pure subroutine side_motion_at_end(node, reference, u, x, mean, spread)
     integer, intent(in) :: node(:)
-    real(wp), intent(in) :: reference(:, :), u(:, :), x(:, :)
+    real(wp), intent(in), contiguous :: reference(:, :), u(:, :), x(:, :)
     real(wp), intent(out) :: mean(2), spread
     real(wp) :: d(2)
     integer :: k
@@ -246,7 +248,7 @@ contains
   !> length, which bounds it.
   pure real(wp) function largest_turn(surface, reference, u)
     type(surface_t), intent(in) :: surface
-    real(wp), intent(in) :: reference(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: reference(:, :), u(:, :)
     real(wp) :: d(2)
     integer :: e
     largest_turn = zero
@@ -261,7 +263,8 @@ contains
   !> What is nearer than this goes on the list: a mean edge, or four steps of the relative motion.
   pure real(wp) function listing_distance(pairing, du, v, h)
     class(pairing_t), intent(in) :: pairing
-    real(wp), intent(in) :: du(:, :), v(:, :), h
+    real(wp), intent(in), contiguous :: du(:, :), v(:, :)
+    real(wp), intent(in) :: h
     real(wp) :: zero_a(2, size(pairing%side(1)%node)), zero_b(2, size(pairing%side(2)%node))
     real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b, motion
     zero_a = zero

@@ -31,7 +31,8 @@ contains
   subroutine solve_contact(model, contact, u, x_free, largest, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), x_free(:, :), largest
+    real(wp), intent(in), contiguous :: u(:, :), x_free(:, :)
+    real(wp), intent(in) :: largest
     real(wp), intent(out) :: force(:, :)
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
@@ -58,7 +59,8 @@ contains
   subroutine solve_rows(model, contact, x_free, largest, round, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: x_free(:, :), largest
+    real(wp), intent(in), contiguous :: x_free(:, :)
+    real(wp), intent(in) :: largest
     integer, intent(in) :: round
     real(wp), intent(inout) :: force(:, :)
     logical, intent(inout) :: acting
@@ -88,7 +90,7 @@ contains
   !> q = H x_free + (c, 0).
   pure subroutine find_q(contact, x_free)
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: x_free(:, :)
+    real(wp), intent(in), contiguous :: x_free(:, :)
     real(wp) :: u(2)
     integer :: k
     do k = 1, contact%n
@@ -198,7 +200,7 @@ contains
   subroutine correct_contact(model, contact, du, force, more, done, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(in), contiguous :: du(:, :)
     real(wp), intent(inout) :: force(:, :)
     real(wp), intent(out) :: more(:, :)
     logical, intent(out) :: done
@@ -234,7 +236,7 @@ contains
   !> u = H dU + (c, 0) of all rows for the motion du (2, nodes).
   pure subroutine find_displacements(contact, du)
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(in), contiguous :: du(:, :)
     integer :: a
     associate (rows => contact%rows)
       do a = 1, rows%n
@@ -247,7 +249,7 @@ contains
   !> Round-off of a gap: terms that nearly cancel at a touch [L].
   pure real(wp) function gap_noise(contact, du)
     type(contact_t), intent(in) :: contact
-    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(in), contiguous :: du(:, :)
     real(wp) :: terms
     integer :: a
     terms = zero
@@ -268,7 +270,7 @@ contains
   subroutine settle_contact(model, contact, u, du, cycle, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in) :: u(:, :), du(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     integer, intent(in) :: cycle
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status

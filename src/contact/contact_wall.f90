@@ -31,7 +31,7 @@ contains
   !> Distance of a node in front of the wall [L], reference part and motion apart.
   pure real(wp) function wall_distance(this, x, u, node)
     type(pairing_wall_t), intent(in) :: this
-    real(wp), intent(in) :: x(:, :), u(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: node
     wall_distance = dot_product(this%normal, x(:, node) - this%point) &
         + dot_product(this%normal, u(:, node))
@@ -41,7 +41,8 @@ contains
   subroutine wall_list(this, model, u, reach)
     class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :), reach
+    real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in) :: reach
     real(wp) :: near_enough, gap
     integer :: k
     near_enough = reach
@@ -85,7 +86,7 @@ contains
   subroutine wall_append_rows(this, model, u, free, rows, spare)
     class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), free(:, :)
     type(rows_t), intent(inout) :: rows, spare
     integer :: i
     do i = 1, this%near%n
@@ -105,7 +106,7 @@ contains
   subroutine wall_find_late(this, model, u0, u1, rows, late, n)
     class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u0(:, :), u1(:, :)
+    real(wp), intent(in), contiguous :: u0(:, :), u1(:, :)
     type(rows_t), intent(in) :: rows
     type(late_t), intent(inout) :: late(:)
     integer, intent(inout) :: n
@@ -114,7 +115,7 @@ contains
   subroutine wall_measure(this, model, u, overlap)
     class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(overlap_t), intent(inout) :: overlap
     integer :: i
     do i = 1, this%near%n
@@ -125,7 +126,7 @@ contains
   subroutine measure_node(this, model, u, k, overlap)
     type(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     integer, intent(in) :: k
     type(overlap_t), intent(inout) :: overlap
     real(wp) :: gap, length
@@ -141,7 +142,7 @@ contains
   subroutine wall_measure_whole(this, model, u, overlap, accepted)
     class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
-    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :)
     type(overlap_t), intent(inout) :: overlap
     real(wp), intent(out) :: accepted
     real(wp) :: far, gap

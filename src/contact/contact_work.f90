@@ -28,7 +28,7 @@ contains
   subroutine add_contact_step(contact, weight_before, weight_now, h, du, work)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: weight_before, weight_now, h
-    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(in), contiguous :: du(:, :)
     type(contact_work_t), intent(inout) :: work
     integer :: a, p
     contact%idle_steps = min(2, contact%idle_steps + 1)
@@ -157,7 +157,7 @@ contains
     type(rows_t), intent(in) :: rows
     integer, intent(in) :: a
     real(wp), intent(in) :: weight
-    real(wp), intent(in) :: du(:, :)
+    real(wp), intent(in), contiguous :: du(:, :)
     type(contact_work_t), intent(inout) :: work
     real(wp) :: u(2)
     if (rows%status(a) == contact_open) return

@@ -378,8 +378,9 @@ contains
     call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
     element = first_inverted(run%system, run%model%x, run%state%u)
     if (element > 0) call fail(status, status_numerical, 'element '// &
-        to_text(run%model%element_id(element))//' is turned inside out: its boundary is no '// &
-        'longer that of a body that contact could hold apart', &
+        to_text(run%model%element_id(element))//', at node '//to_text(run%model%node_id( &
+        run%model%connectivity(1, element)))//', is turned inside out: its boundary is not '// &
+        'that of a body any more', &
         hint='check the loads and motions; take a smaller step')
     if (failed(status)) call add_place(status, moment(run))
   end subroutine check_overlap
