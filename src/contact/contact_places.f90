@@ -54,6 +54,8 @@ module contact_places
   real(wp), parameter :: empty = 10.0_wp*degree    !< cones that miss each other by more
   real(wp), parameter, public :: corner = 20.0_wp*degree   !< a sharper one is watched exactly
   real(wp), parameter :: never = 1.0e9_wp          !< steps
+  !> Edges: a corner that is further beside another does not meet it; nearer they are twins.
+  real(wp), parameter :: beside = 0.1_wp
   !> Allowances / shorter edge.
   real(wp), parameter :: share_of_edge = 1.0e-3_wp
   real(wp), parameter, public :: share_at_corner = 2.0e-4_wp
@@ -312,6 +314,8 @@ contains
         return
       end if
     end if
+    if (is_beside(middle, half*turn, low, high, y, free(:, own%node(k)) - free(:, vertex), &
+        beside*min(shorter, size_or(own, k, cone, middle, shorter)))) return
     if (high - low < 1.0e-9_wp) then
       n = direction(middle, half*(low + high))
     else
@@ -330,6 +334,32 @@ contains
     call add_vertex_place(own%node(k), vertex, sight%edge(first), n, dot_product(n, y), &
         shorter, sight)
   end subroutine choose_at_corner
+
+  !> A node beside the corner, clear of it by more than `enough` at both ends of its free motion f
+  !> in a direction of the corner's cone that is none of the node's: it meets nothing there.
+  pure logical function is_beside(middle, half_width, low, high, y, f, enough)
+    real(wp), intent(in) :: middle(2), half_width, low, high, y(2), f(2), enough
+    real(wp) :: d(2)
+    is_beside = .false.
+    if (low > 1.0e-9_wp - half_width) then
+      d = direction(middle, -half_width)
+      is_beside = min(dot_product(d, y), dot_product(d, y + f)) > enough
+    end if
+    if (high < half_width - 1.0e-9_wp .and. .not. is_beside) then
+      d = direction(middle, half_width)
+      is_beside = min(dot_product(d, y), dot_product(d, y + f)) > enough
+    end if
+  end function is_beside
+
+  !> The size of a node, or a length where it is a lone one [L].
+  pure real(wp) function size_or(own, k, cone, normal, length)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k
+    type(cone_of_node_t), intent(in) :: cone
+    real(wp), intent(in) :: normal(2), length
+    size_or = size_of_node(own, k, cone, normal)
+    if (.not. size_or > zero) size_or = length
+  end function size_or
 
   !> n is the normal of the edge where it differs from it by round-off alone.
   pure subroutine keep_edge_normal(normal, n)
