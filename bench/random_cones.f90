@@ -5,9 +5,9 @@
 program random_cones
   use base_kinds, only: wp, zero
   use base_status, only: status_t, failed
-  use cone_blocks, only: flexibility_t
-  use cone_solver, only: solve_contacts
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_blocks, only: delassus_blocks_t
+  use cone_solver, only: solve_cone
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use random_contacts, only: make_problem
   implicit none
   real(wp), parameter :: conditions(4) = [1.0_wp, 1.0e4_wp, 1.0e8_wp, 1.0e12_wp]
@@ -53,22 +53,23 @@ contains
   logical function solved(d, condition, redundancy, mu_1)
     integer, intent(in) :: d
     real(wp), intent(in) :: condition, redundancy, mu_1
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
     type(cone_options_t) :: options
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp), allocatable :: q(:, :), mu(:), r(:, :), u(:, :)
+    real(wp), allocatable :: q(:, :), mu(:), r(:, :)
     real(wp) :: x
     integer :: nc
     call random_number(x)
     nc = int(40.0_wp**x)
-    allocate (q(d, nc), mu(nc), r(d, nc), u(d, nc))
+    allocate (q(d, nc), mu(nc), r(d, nc))
     mu = mu_1
     call make_problem(d, nc, condition, redundancy, mu_1, w, q)
     options%tolerance = tolerance
     options%max_sweeps = 2000
     r = zero
-    call solve_contacts(options, w, q, mu, r, u, certificate, status)
+    call solve_cone(options, w, q, mu, r, work, certificate, status)
     solved = .not. failed(status)
     if (solved .and. .not. certificate%met) stop 'an answer without certificate'
   end function solved

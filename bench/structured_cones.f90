@@ -5,8 +5,8 @@
 program structured_cones
   use base_kinds, only: wp, zero
   use base_status, only: status_t, failed
-  use cone_solver, only: solve_contacts
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_solver, only: solve_cone
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use structured_contacts, only: structure_t, make_structure, misfit, structures
   implicit none
   integer, parameter :: sizes(4) = [10, 100, 1000, 2000]
@@ -35,15 +35,16 @@ contains
     integer, intent(in) :: d, n
     type(structure_t) :: s
     type(cone_options_t) :: options
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: r(d, n), u(d, n), start, finish
+    real(wp) :: r(d, n), start, finish
     call make_structure(kind, d, n, s)
     options%tolerance = tolerance
     options%max_sweeps = 100000
     r = zero
     call cpu_time(start)
-    call solve_contacts(options, s%w, s%q, s%mu, r, u, certificate, status)
+    call solve_cone(options, s%w, s%q, s%mu, r, work, certificate, status)
     call cpu_time(finish)
     write (*, '(a5,i3,i9,i8,i7,f9.1,es9.1,es9.1,1x,a)') kind, d, n, certificate%sweeps, &
         certificate%newton_steps, 1.0e3_wp*(finish - start), certificate%error, misfit(s, r), &

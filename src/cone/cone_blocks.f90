@@ -1,171 +1,174 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The flexibility W of a contact problem, stored by blocks of d x d, row by row.
+!> W by blocks of d x d, row by row; blocks of zeros are left out.
 module cone_blocks
   use base_kinds, only: wp, zero
-  use cone_operator, only: operator_t
+  use cone_delassus, only: delassus_entries_t
+  use cone_types, only: cone_options_t, most_components
+  use cone_visit, only: visit_contact
   implicit none
   private
-  public :: blocks_from_dense, blocks_from_rows, motions, add_motions, &
-      mean_of_diagonal, dense_of_blocks, find_components, take_component
+  public :: blocks_from_dense, blocks_from_rows, dense_of_blocks, find_components, &
+      take_component
 
-  type, extends(operator_t), public :: flexibility_t
-    integer :: d = 0, contacts = 0
+  type, extends(delassus_entries_t), public :: delassus_blocks_t
     integer, allocatable :: first(:)         !< (nc + 1) first block of a contact's row
     integer, allocatable :: column(:)        !< contact of a block
     integer, allocatable :: diagonal(:)      !< (nc) place of W_aa
     real(wp), allocatable :: block(:, :, :)  !< (d, d, blocks) [L/F]
   contains
-    procedure :: apply
-  end type flexibility_t
+    procedure :: diagonal_block
+    procedure :: add_product
+    procedure :: visit
+  end type delassus_blocks_t
 
 contains
 
   !> From a dense W (d nc, d nc); blocks of zeros are left out, W_aa stays.
-  pure subroutine blocks_from_dense(w, d, flexibility)
+  pure subroutine blocks_from_dense(w, d, blocks)
     real(wp), intent(in) :: w(:, :)
     integer, intent(in) :: d
-    type(flexibility_t), intent(out) :: flexibility
+    type(delassus_blocks_t), intent(out) :: blocks
     integer :: a, b, n, pass, nc
     nc = size(w, 1)/d
-    call start_blocks(d, nc, flexibility)
+    call start_blocks(d, nc, blocks)
     do pass = 1, 2
       n = 0
       do a = 1, nc
-        flexibility%first(a) = n + 1
+        blocks%first(a) = n + 1
         do b = 1, nc
           if (a /= b .and. .not. any(abs(w(d*a - d + 1:d*a, d*b - d + 1:d*b)) > zero)) cycle
           n = n + 1
-          if (a == b) flexibility%diagonal(a) = n
+          if (a == b) blocks%diagonal(a) = n
           if (pass == 1) cycle
-          flexibility%column(n) = b
-          flexibility%block(:, :, n) = w(d*a - d + 1:d*a, d*b - d + 1:d*b)
+          blocks%column(n) = b
+          blocks%block(:, :, n) = w(d*a - d + 1:d*a, d*b - d + 1:d*b)
         end do
       end do
-      flexibility%first(nc + 1) = n + 1
-      if (pass == 1) allocate (flexibility%column(n), flexibility%block(d, d, n))
+      blocks%first(nc + 1) = n + 1
+      if (pass == 1) allocate (blocks%column(n), blocks%block(d, d, n))
     end do
   end subroutine blocks_from_dense
 
   !> From entries by rows: pointer (d nc + 1), columns and values. Entries of one place add up.
-  pure subroutine blocks_from_rows(d, pointer, columns, values, flexibility)
+  pure subroutine blocks_from_rows(d, pointer, columns, values, blocks)
     integer, intent(in) :: d
     integer, intent(in) :: pointer(:), columns(:)
     real(wp), intent(in) :: values(:)
-    type(flexibility_t), intent(out) :: flexibility
+    type(delassus_blocks_t), intent(out) :: blocks
     integer, allocatable :: place(:)
     integer :: a, b, i, k, n, pass, nc
     nc = (size(pointer) - 1)/d
-    call start_blocks(d, nc, flexibility)
+    call start_blocks(d, nc, blocks)
     allocate (place(nc))
     do pass = 1, 2
       n = 0
       place = 0
       do a = 1, nc
-        flexibility%first(a) = n + 1
+        blocks%first(a) = n + 1
         n = n + 1
         place(a) = n
-        flexibility%diagonal(a) = n
-        if (pass == 2) flexibility%column(n) = a
+        blocks%diagonal(a) = n
+        if (pass == 2) blocks%column(n) = a
         do i = d*(a - 1) + 1, d*a
           do k = pointer(i), pointer(i + 1) - 1
             b = (columns(k) - 1)/d + 1
-            if (place(b) < flexibility%first(a)) then
+            if (place(b) < blocks%first(a)) then
               n = n + 1
               place(b) = n
             end if
             if (pass == 1) cycle
-            flexibility%column(place(b)) = b
-            associate (entry => flexibility%block(i - d*(a - 1), columns(k) - d*(b - 1), &
+            blocks%column(place(b)) = b
+            associate (entry => blocks%block(i - d*(a - 1), columns(k) - d*(b - 1), &
                 place(b)))
               entry = entry + values(k)
             end associate
           end do
         end do
       end do
-      flexibility%first(nc + 1) = n + 1
+      blocks%first(nc + 1) = n + 1
       if (pass == 2) exit
-      allocate (flexibility%column(n), flexibility%block(d, d, n))
-      flexibility%block = zero
+      allocate (blocks%column(n), blocks%block(d, d, n))
+      blocks%block = zero
     end do
   end subroutine blocks_from_rows
 
-  pure subroutine start_blocks(d, nc, flexibility)
+  pure subroutine start_blocks(d, nc, blocks)
     integer, intent(in) :: d, nc
-    type(flexibility_t), intent(inout) :: flexibility
-    flexibility%d = d
-    flexibility%contacts = nc
-    allocate (flexibility%first(nc + 1), flexibility%diagonal(nc))
+    type(delassus_blocks_t), intent(inout) :: blocks
+    blocks%d = d
+    blocks%contacts = nc
+    allocate (blocks%first(nc + 1), blocks%diagonal(nc))
   end subroutine start_blocks
 
-  !> u = W r (d, nc).
-  subroutine apply(this, r, u)
-    class(flexibility_t), intent(in) :: this
-    real(wp), intent(in) :: r(:, :)
-    real(wp), intent(out) :: u(:, :)
-    u = zero
-    call add_motions(this, r, u)
-  end subroutine apply
+  pure subroutine diagonal_block(this, a, block)
+    class(delassus_blocks_t), intent(in) :: this
+    integer, intent(in) :: a
+    real(wp), intent(inout) :: block(most_components, most_components)
+    block(:this%d, :this%d) = this%block(:, :, this%diagonal(a))
+  end subroutine diagonal_block
 
-  !> u = W r + q (d, nc).
-  pure subroutine motions(flexibility, q, r, u)
-    type(flexibility_t), intent(in) :: flexibility
-    real(wp), intent(in) :: q(:, :), r(:, :)
-    real(wp), intent(out) :: u(:, :)
-    u = q
-    call add_motions(flexibility, r, u)
-  end subroutine motions
+  pure subroutine add_product(this, r, u)
+    class(delassus_blocks_t), intent(in) :: this
+    real(wp), intent(in), contiguous :: r(:, :)
+    real(wp), intent(inout), contiguous :: u(:, :)
+    integer :: a
+    do a = 1, this%contacts
+      call add_row(this, a, r, u(:, a))
+    end do
+  end subroutine add_product
 
-  !> u = u + W r (d, nc).
-  pure subroutine add_motions(flexibility, r, u)
-    class(flexibility_t), intent(in) :: flexibility
+  !> u = u + (W r)_a (d).
+  pure subroutine add_row(this, a, r, u)
+    class(delassus_blocks_t), intent(in) :: this
+    integer, intent(in) :: a
     real(wp), intent(in) :: r(:, :)
-    real(wp), intent(inout) :: u(:, :)
-    integer :: a, k, j
-    do a = 1, flexibility%contacts
-      do k = flexibility%first(a), flexibility%first(a + 1) - 1
-        do j = 1, flexibility%d
-          u(:, a) = u(:, a) + flexibility%block(:, j, k)*r(j, flexibility%column(k))
-        end do
+    real(wp), intent(inout) :: u(:)
+    integer :: k, j
+    do k = this%first(a), this%first(a + 1) - 1
+      do j = 1, this%d
+        u = u + this%block(:, j, k)*r(j, this%column(k))
       end do
     end do
-  end subroutine add_motions
+  end subroutine add_row
 
-  !> Mean of the diagonal of W [L/F].
-  pure real(wp) function mean_of_diagonal(flexibility)
-    type(flexibility_t), intent(in) :: flexibility
-    integer :: a, j
-    mean_of_diagonal = zero
-    do a = 1, flexibility%contacts
-      do j = 1, flexibility%d
-        mean_of_diagonal = mean_of_diagonal + flexibility%block(j, j, flexibility%diagonal(a))
-      end do
-    end do
-    mean_of_diagonal = mean_of_diagonal/max(1, flexibility%d*flexibility%contacts)
-  end function mean_of_diagonal
+  pure subroutine visit(this, options, a, mu, rho, enough, most, q, r, u, status, iterations)
+    class(delassus_blocks_t), intent(in) :: this
+    type(cone_options_t), intent(in) :: options
+    integer, intent(in) :: a
+    real(wp), intent(in) :: mu, rho, enough
+    integer, intent(in) :: most
+    real(wp), intent(in), contiguous :: q(:, :)
+    real(wp), intent(inout), contiguous :: r(:, :), u(:, :)
+    integer, intent(out) :: status, iterations
+    u(:, a) = q(:, a)
+    call add_row(this, a, r, u(:, a))
+    call visit_contact(options, this%block(:, :, this%diagonal(a)), mu, rho, enough, most, &
+        r(:, a), u(:, a), status, iterations)
+  end subroutine visit
 
   !> W as a dense matrix (d nc, d nc).
-  pure subroutine dense_of_blocks(flexibility, w)
-    type(flexibility_t), intent(in) :: flexibility
+  pure subroutine dense_of_blocks(blocks, w)
+    type(delassus_blocks_t), intent(in) :: blocks
     real(wp), intent(out) :: w(:, :)
     integer :: a, k, d, b
-    d = flexibility%d
+    d = blocks%d
     w = zero
-    do a = 1, flexibility%contacts
-      do k = flexibility%first(a), flexibility%first(a + 1) - 1
-        b = flexibility%column(k)
-        w(d*a - d + 1:d*a, d*b - d + 1:d*b) = flexibility%block(:, :, k)
+    do a = 1, blocks%contacts
+      do k = blocks%first(a), blocks%first(a + 1) - 1
+        b = blocks%column(k)
+        w(d*a - d + 1:d*a, d*b - d + 1:d*b) = blocks%block(:, :, k)
       end do
     end do
   end subroutine dense_of_blocks
 
-  !> Contacts that no chain of blocks connects do not know each other. member lists them
-  !> component by component, the k-th from first(k) to first(k + 1) - 1.
-  pure subroutine find_components(flexibility, first, member)
-    type(flexibility_t), intent(in) :: flexibility
+  !> Uncoupled groups of contacts: the components of the graph of blocks. member lists them
+  !> one by one, the k-th from first(k) to first(k + 1) - 1.
+  pure subroutine find_components(blocks, first, member)
+    type(delassus_blocks_t), intent(in) :: blocks
     integer, allocatable, intent(out) :: first(:), member(:)
     logical, allocatable :: seen(:)
     integer :: a, b, k, head, n, components, nc
-    nc = flexibility%contacts
+    nc = blocks%contacts
     allocate (first(nc + 1), member(nc), seen(nc))
     seen = .false.
     n = 0
@@ -180,11 +183,11 @@ contains
       head = n
       do while (head <= n)
         b = member(head)
-        do k = flexibility%first(b), flexibility%first(b + 1) - 1
-          if (seen(flexibility%column(k))) cycle
+        do k = blocks%first(b), blocks%first(b + 1) - 1
+          if (seen(blocks%column(k))) cycle
           n = n + 1
-          member(n) = flexibility%column(k)
-          seen(flexibility%column(k)) = .true.
+          member(n) = blocks%column(k)
+          seen(blocks%column(k)) = .true.
         end do
         head = head + 1
       end do
@@ -193,26 +196,26 @@ contains
   end subroutine find_components
 
   !> The blocks among the contacts of one component. place (all contacts) is work space.
-  pure subroutine take_component(flexibility, member, place, part)
-    type(flexibility_t), intent(in) :: flexibility
+  pure subroutine take_component(blocks, member, place, part)
+    type(delassus_blocks_t), intent(in) :: blocks
     integer, intent(in) :: member(:)
     integer, intent(inout) :: place(:)
-    type(flexibility_t), intent(out) :: part
+    type(delassus_blocks_t), intent(out) :: part
     integer :: a, k, n
-    call start_blocks(flexibility%d, size(member), part)
+    call start_blocks(blocks%d, size(member), part)
     n = 0
     do a = 1, size(member)
       place(member(a)) = a
-      n = n + flexibility%first(member(a) + 1) - flexibility%first(member(a))
+      n = n + blocks%first(member(a) + 1) - blocks%first(member(a))
     end do
-    allocate (part%column(n), part%block(flexibility%d, flexibility%d, n))
+    allocate (part%column(n), part%block(blocks%d, blocks%d, n))
     n = 0
     do a = 1, size(member)
       part%first(a) = n + 1
-      do k = flexibility%first(member(a)), flexibility%first(member(a) + 1) - 1
+      do k = blocks%first(member(a)), blocks%first(member(a) + 1) - 1
         n = n + 1
-        part%column(n) = place(flexibility%column(k))
-        part%block(:, :, n) = flexibility%block(:, :, k)
+        part%column(n) = place(blocks%column(k))
+        part%block(:, :, n) = blocks%block(:, :, k)
         if (part%column(n) == a) part%diagonal(a) = n
       end do
     end do

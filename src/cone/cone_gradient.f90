@@ -5,10 +5,10 @@
 !> predictor, so that the law and not its associated relative is solved.
 module cone_gradient
   use base_kinds, only: wp, zero, one, half
-  use cone_local, only: predictor, project_on_cone
-  use cone_operator, only: operator_t
+  use cone_delassus, only: delassus_t, operator_t
+  use cone_local, only: predict_and_correct
   use cone_types, only: most_components
-  use linalg_dense, only: largest_eigenvalue
+  use cone_sweep, only: find_rho
   implicit none
   private
   public :: start_gradient, restart_gradient, gradient_step
@@ -26,19 +26,19 @@ module cone_gradient
 
 contains
 
-  !> Space and rho = factor / lmax(W_aa), over the largest eigenvalue of diag(rho) W, for the
-  !> operator w with blocks diagonal (d, d, nc) [L/F].
-  subroutine start_gradient(w, diagonal, factor, g)
-    class(operator_t), intent(in) :: w
-    real(wp), intent(in) :: diagonal(:, :, :), factor
+  !> Space and rho = factor / lmax(W_aa), over the largest eigenvalue of diag(rho) W, for w
+  !> [L/F].
+  subroutine start_gradient(w, factor, g)
+    class(delassus_t), intent(in) :: w
+    real(wp), intent(in) :: factor
     type(gradient_t), intent(inout) :: g
     real(wp) :: length
     integer :: a, d, nc, k
-    d = size(diagonal, 1)
-    nc = size(diagonal, 3)
+    d = w%d
+    nc = w%contacts
     allocate (g%u(d, nc), g%before(d, nc), g%point(d, nc), g%rho(nc))
+    call find_rho(w, one, g%rho)
     do a = 1, nc
-      g%rho(a) = one/largest_eigenvalue(diagonal(:, :, a))
       do k = 1, d
         g%point(k, a) = one + real(modulo(7*a + 3*k, 11), wp)/11.0_wp
       end do
@@ -79,8 +79,8 @@ contains
     against = zero
     do a = 1, size(mu)
       g%u(:, a) = g%u(:, a) + q(:, a)
-      call predictor(mu(a), g%rho(a), g%point(:, a), g%u(:, a), tau(:d))
-      call project_on_cone(mu(a), tau(:d), r(:, a), status)
+      call predict_and_correct(mu(a), g%rho(a), g%point(:, a), g%u(:, a), tau(:d), r(:, a), &
+          status)
       against = against + dot_product(g%point(:, a) - r(:, a), r(:, a) - g%before(:, a))
     end do
     if (against > zero) g%weight = one

@@ -7,8 +7,8 @@ module cone_local
   use cone_types, only: contact_open, contact_stick, contact_slip, most_components
   implicit none
   private
-  public :: project_on_cone, predictor, contact_map, solve_local, tangent_length, &
-      may_wedge
+  public :: project_on_cone, in_cone, predict_and_correct, contact_map, solve_local, &
+      tangent_length, may_wedge
 
 contains
 
@@ -87,14 +87,26 @@ contains
     end do
   end subroutine projection_derivative
 
-  !> tau = r - rho (u_n + mu |u_t|, u_t) (De Saxce & Feng 1998).
-  pure subroutine predictor(mu, rho, r, u, tau)
+  !> Predictor tau = r - rho (u_n + mu |u_t|, u_t) and corrector P_K(tau) with its status (De
+  !> Saxce & Feng 1998). r - P_K(tau) is the natural map of the contact.
+  pure subroutine predict_and_correct(mu, rho, r, u, tau, corrected, status)
     real(wp), intent(in) :: mu, rho
     real(wp), intent(in) :: r(:), u(:)
-    real(wp), intent(out) :: tau(:)
+    real(wp), intent(out) :: tau(:), corrected(:)
+    integer, intent(out) :: status
     tau = r - rho*u
     tau(1) = tau(1) - rho*mu*tangent_length(u)
-  end subroutine predictor
+    call project_on_cone(mu, tau, corrected, status)
+  end subroutine predict_and_correct
+
+  !> r in K, to round-off on the slip side.
+  pure logical function in_cone(mu, r)
+    real(wp), intent(in) :: mu
+    real(wp), intent(in) :: r(:)
+    real(wp), parameter :: slack = 1.0_wp + 8.0_wp*epsilon(1.0_wp)
+    in_cone = r(1) >= zero
+    if (size(r) > 1) in_cone = in_cone .and. tangent_length(r) <= slack*mu*r(1)
+  end function in_cone
 
   !> map = r - P_K(tau) of one contact, the derivative (d, d) of P_K at tau, the status there.
   pure subroutine contact_map(mu, rho, r, u, map, part, status)
@@ -104,8 +116,7 @@ contains
     real(wp), dimension(most_components) :: tau, projected
     integer :: d
     d = size(r)
-    call predictor(mu, rho, r, u, tau(:d))
-    call project_on_cone(mu, tau(:d), projected(:d), status)
+    call predict_and_correct(mu, rho, r, u, tau(:d), projected(:d), status)
     map = r - projected(:d)
     call projection_derivative(mu, tau(:d), projected(:d), status, part)
   end subroutine contact_map
@@ -128,8 +139,7 @@ contains
     d = size(r)
     status = contact_open
     do iterations = 1, max_iterations
-      call predictor(mu, rho, r, u, tau(:d))
-      call project_on_cone(mu, tau(:d), next(:d), status)
+      call predict_and_correct(mu, rho, r, u, tau(:d), next(:d), status)
       change(:d) = next(:d) - r
       do i = 1, d
         u = u + w(:, i)*change(i)

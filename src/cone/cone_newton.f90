@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Global Newton method on the natural map of all contacts. Unknowns are scaled: mean diagonal
 !> of W 1, largest |q| 1. The matrix of a step is banded where the contacts, numbered by reverse
-!> Cuthill-McKee, know but few others; else it is dense.
+!> Cuthill-McKee, are coupled to few others; else it is dense.
 module cone_newton
   use base_kinds, only: wp, zero, one, half
-  use cone_blocks, only: flexibility_t, add_motions
+  use cone_blocks, only: delassus_blocks_t
   use cone_local, only: contact_map, tangent_length
   use cone_types, only: most_components
   use linalg_dense, only: solve_general, solve_banded
@@ -30,7 +30,7 @@ contains
 
   !> The order of the contacts and what a step will cost; no matrix yet.
   subroutine plan_newton(w, work)
-    type(flexibility_t), intent(in) :: w
+    type(delassus_blocks_t), intent(in) :: w
     type(newton_work_t), intent(inout) :: work
     type(graph_t) :: graph
     integer :: a, n, band
@@ -48,7 +48,7 @@ contains
     end do
     n = w%d*w%contacts
     work%width = w%d*(band + 1) - 1
-    ! The factor of a band, with room for its row exchanges, costs 4 n width^2.
+    ! The factor of a band, with space for its row exchanges, costs 4 n width^2.
     work%banded = 6*real(work%width, wp)**2 < real(n, wp)**2
     work%flops = real(n, wp)**3/1.5_wp
     if (work%banded) work%flops = 4*real(n, wp)*real(work%width, wp)**2
@@ -57,7 +57,7 @@ contains
 
   !> Space for the steps, once.
   subroutine size_newton(w, work)
-    type(flexibility_t), intent(in) :: w
+    type(delassus_blocks_t), intent(in) :: w
     type(newton_work_t), intent(inout) :: work
     integer :: d, n, nc
     call plan_newton(w, work)
@@ -75,12 +75,12 @@ contains
   !> alpha (r - r_0), until |map| <= goal or the line search finds no way down; the best r is
   !> kept. rho (nc), all scaled.
   subroutine newton_solve(w, q, mu, rho, alpha, goal, most, r, work, norm, steps)
-    type(flexibility_t), intent(in) :: w
+    type(delassus_blocks_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :)
     real(wp), intent(in) :: mu(:), rho(:)
     real(wp), intent(in) :: alpha, goal
     integer, intent(in) :: most
-    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(inout), contiguous :: r(:, :)
     type(newton_work_t), intent(inout) :: work
     real(wp), intent(out) :: norm
     integer, intent(out) :: steps
@@ -89,7 +89,7 @@ contains
     integer :: k
     call size_newton(w, work)
     work%start = r
-    call natural_map(w, q, mu, rho, alpha, r, work)
+    call evaluate_map(w, q, mu, rho, alpha, r, work)
     norm = sqrt(sum(work%map**2))
     do steps = 1, most
       if (norm <= goal) return
@@ -98,7 +98,7 @@ contains
       length = one
       do k = 1, 12
         work%trial = r + length*work%step
-        call natural_map(w, q, mu, rho, alpha, work%trial, work)
+        call evaluate_map(w, q, mu, rho, alpha, work%trial, work)
         trial_norm = sqrt(sum(work%map**2))
         if (trial_norm <= (one - 1.0e-2_wp*length)*norm) exit
         length = half*length
@@ -110,23 +110,24 @@ contains
   end subroutine newton_solve
 
   !> u, map = r - P_K(tau), and the derivative of P_K for each contact, at r (d, nc).
-  pure subroutine natural_map(w, q, mu, rho, alpha, r, work)
-    type(flexibility_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :), mu(:), rho(:), alpha, r(:, :)
+  pure subroutine evaluate_map(w, q, mu, rho, alpha, r, work)
+    type(delassus_blocks_t), intent(in) :: w
+    real(wp), intent(in) :: q(:, :), mu(:), rho(:), alpha
+    real(wp), intent(in), contiguous :: r(:, :)
     type(newton_work_t), intent(inout) :: work
     integer :: a, status
     work%u = q + alpha*(r - work%start)
-    call add_motions(w, r, work%u)
+    call w%add_product(r, work%u)
     do a = 1, size(mu)
       call contact_map(mu(a), rho(a), r(:, a), work%u(:, a), work%map(:, a), &
           work%part(:, :, a), status)
     end do
-  end subroutine natural_map
+  end subroutine evaluate_map
 
   !> The Newton step: open contacts have theirs at once, -map; the others solve the system
   !> (I - dP (I - rho (W + alpha I + mu e_n t' (W_t + alpha I)))) step = -map among themselves.
   subroutine find_step(w, mu, rho, alpha, work, ok)
-    type(flexibility_t), intent(in) :: w
+    type(delassus_blocks_t), intent(in) :: w
     real(wp), intent(in) :: mu(:), rho(:), alpha
     type(newton_work_t), intent(inout) :: work
     logical, intent(out) :: ok
@@ -161,7 +162,7 @@ contains
 
   !> The rows of active contact a; the steps of the open ones go to the right side.
   pure subroutine fill_rows(w, a, mu, rho, alpha, work)
-    type(flexibility_t), intent(in) :: w
+    type(delassus_blocks_t), intent(in) :: w
     integer, intent(in) :: a
     real(wp), intent(in) :: mu, rho, alpha
     type(newton_work_t), intent(inout) :: work

@@ -3,11 +3,11 @@
 !> force split into two parts of one sign each, Coulomb's law in the plane is a linear
 !> complementarity problem z >= 0, M z + b >= 0, z.(M z + b) = 0 with a copositive M, for which
 !> Lemke's path (Lemke 1965) ends in a solution whatever the friction, where one exists. Slower
-!> than sweeps by far: the rescue for few contacts that wedge (mu |W_nt| > W_nn), where sweeps
+!> than sweeps by far: the fallback for few contacts that wedge (mu |W_nt| > W_nn), where sweeps
 !> go in circles.
 module cone_pivoting
   use base_kinds, only: wp, zero, one
-  use cone_certificate, only: mean_diagonal
+  use cone_dense, only: delassus_dense_t
   use cone_types, only: contact_open, contact_stick, contact_slip
   use linalg_dense, only: solve_general
   implicit none
@@ -22,10 +22,10 @@ module cone_pivoting
 
 contains
 
-  !> Statuses of u = W r + q for W (2 nc, 2 nc) [L/F], q (2, nc) [L], mu (nc), and the sign of
-  !> r_t where a contact slips. ok is false when the path ends in a ray, or is too long.
+  !> Statuses of u = W r + q for W [L/F] of two components, q (2, nc) [L], mu (nc), and the sign
+  !> of r_t where a contact slips. ok is false when the path ends in a ray, or is too long.
   subroutine pivot_statuses(w, q, mu, contact_status, slip_sign, ok)
-    real(wp), intent(in) :: w(:, :)
+    type(delassus_dense_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :)
     real(wp), intent(in) :: mu(:)
     integer, intent(out) :: contact_status(:)
@@ -55,7 +55,7 @@ contains
   !> lambda; mu r_n - r_+ - r_-, the last divided by mu where mu > 1. Columns of M: r_n, r_+,
   !> r_-, lambda. The cover is uneven so that no two rows leave at once.
   subroutine fill_problem(w, q, mu, columns, b)
-    real(wp), intent(in) :: w(:, :)
+    type(delassus_dense_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :)
     real(wp), intent(in) :: mu(:)
     real(wp), intent(out) :: columns(:, :)
@@ -63,7 +63,7 @@ contains
     real(wp) :: m, largest, row_scale
     integer :: n, a, k
     n = size(mu)
-    m = mean_diagonal(w)
+    m = w%mean_diagonal()
     largest = maxval(abs(q))
     columns = zero
     do k = 1, 4*n
@@ -71,9 +71,9 @@ contains
       columns(k, 8*n + 1) = -one - uneven(k)
     end do
     do a = 1, n
-      call fill_motions(w(:, 2*a - 1)/m, columns(:, 4*n + a), -one)
-      call fill_motions(w(:, 2*a)/m, columns(:, 5*n + a), -one)
-      call fill_motions(w(:, 2*a)/m, columns(:, 6*n + a), one)
+      call fill_displacements(w%matrix(:, 2*a - 1)/m, columns(:, 4*n + a), -one)
+      call fill_displacements(w%matrix(:, 2*a)/m, columns(:, 5*n + a), -one)
+      call fill_displacements(w%matrix(:, 2*a)/m, columns(:, 6*n + a), one)
       columns([n + a, 2*n + a], 7*n + a) = -one
       row_scale = one/max(one, mu(a))
       columns(3*n + a, 4*n + a) = -mu(a)*row_scale
@@ -84,8 +84,8 @@ contains
     end do
   end subroutine fill_problem
 
-  !> Motions that a unit force makes: normal, tangential of either sign.
-  pure subroutine fill_motions(w_column, column, factor)
+  !> Displacements by a unit force: normal, tangential of either sign.
+  pure subroutine fill_displacements(w_column, column, factor)
     real(wp), intent(in) :: w_column(:)
     real(wp), intent(inout) :: column(:)
     real(wp), intent(in) :: factor
@@ -95,7 +95,7 @@ contains
       column([a, n + a, 2*n + a]) = &
           factor*[w_column(2*a - 1), w_column(2*a), -w_column(2*a)]
     end do
-  end subroutine fill_motions
+  end subroutine fill_displacements
 
   !> Fractions of multiples of the golden ratio: spread in 0..1, the same in every run.
   elemental real(wp) function uneven(k)

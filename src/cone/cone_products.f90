@@ -1,61 +1,48 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact problem where W is given as an operator (cone_operator), by its products alone.
+!> W of which products are known and the blocks W_aa, nothing else.
 module cone_products
-  use base_kinds, only: wp, zero
-  use base_status, only: status_t
-  use cone_certificate, only: certify, fail_uncertified
-  use cone_gradient, only: gradient_t, start_gradient, restart_gradient, gradient_step
-  use cone_operator, only: operator_t
-  use cone_types, only: cone_options_t, certificate_t, late
+  use base_kinds, only: wp
+  use cone_delassus, only: delassus_t, operator_t
+  use cone_types, only: most_components
   implicit none
   private
-  public :: solve_by_products
+  public :: make_products
 
-  integer, parameter :: chunk = 10         !< steps between two looks at the error
+  type, extends(delassus_t), public :: delassus_products_t
+    class(operator_t), pointer :: product => null()   !< its owner keeps it
+    real(wp), allocatable :: diagonal(:, :, :)        !< (d, d, nc) W_aa [L/F]
+  contains
+    procedure :: apply
+    procedure :: diagonal_block
+  end type delassus_products_t
 
 contains
 
-  !> Reactions r (d, nc) [F] and motions u = W r + q (d, nc) [L] for the operator w with blocks
-  !> diagonal (d, d, nc) [L/F]; r on entry is the start where options%warm_start. Takes at most
-  !> options%max_sweeps products, counted as sweeps. Fails when the certificate is not met.
-  subroutine solve_by_products(options, w, diagonal, q, mu, r, u, certificate, status)
-    type(cone_options_t), intent(in) :: options
-    class(operator_t), intent(in) :: w
-    real(wp), intent(in) :: diagonal(:, :, :), q(:, :), mu(:)
-    real(wp), intent(inout) :: r(:, :)
-    real(wp), intent(out) :: u(:, :)
-    type(certificate_t), intent(out) :: certificate
-    type(status_t), intent(inout) :: status
-    type(gradient_t) :: g
-    integer :: k
-    if (.not. options%warm_start .or. all(q(1, :) >= zero)) r = zero
-    u = q
-    if (all(q(1, :) >= zero)) return
-    call start_gradient(w, diagonal, options%rho_factor, g)
-    call restart_gradient(r, g)
-    do while (certificate%sweeps < options%max_sweeps)
-      if (late(options)) exit
-      do k = 1, chunk
-        call gradient_step(w, q, mu, r, g)
-      end do
-      call w%apply(r, u)
-      u = u + q
-      certificate%sweeps = certificate%sweeps + chunk + 1
-      call certify(mean_of(diagonal), mu, q, r, u, options%tolerance, certificate)
-      if (certificate%met) return
-    end do
-    call fail_uncertified(mean_of(diagonal), diagonal, mu, r, u, certificate, status)
-  end subroutine solve_by_products
-
-  !> Mean of the diagonal of W [L/F].
-  pure real(wp) function mean_of(diagonal)
+  !> From an operator, which must live as long as w is used, and its blocks diagonal (d, d, nc)
+  !> [L/F].
+  subroutine make_products(product, diagonal, w)
+    class(operator_t), target, intent(in) :: product
     real(wp), intent(in) :: diagonal(:, :, :)
-    integer :: i
-    mean_of = zero
-    do i = 1, size(diagonal, 1)
-      mean_of = mean_of + sum(diagonal(i, i, :))
-    end do
-    mean_of = mean_of/(size(diagonal, 1)*size(diagonal, 3))
-  end function mean_of
+    type(delassus_products_t), intent(out) :: w
+    w%d = size(diagonal, 1)
+    w%contacts = size(diagonal, 3)
+    w%product => product
+    w%diagonal = diagonal
+  end subroutine make_products
+
+  !> u = W r (d, nc), [L] and [F].
+  subroutine apply(this, r, u)
+    class(delassus_products_t), intent(in) :: this
+    real(wp), intent(in), contiguous :: r(:, :)
+    real(wp), intent(out), contiguous :: u(:, :)
+    call this%product%apply(r, u)
+  end subroutine apply
+
+  pure subroutine diagonal_block(this, a, block)
+    class(delassus_products_t), intent(in) :: this
+    integer, intent(in) :: a
+    real(wp), intent(inout) :: block(most_components, most_components)
+    block(:this%d, :this%d) = this%diagonal(:, :, a)
+  end subroutine diagonal_block
 
 end module cone_products

@@ -5,11 +5,11 @@
 module cone_proximal
   use base_kinds, only: wp, zero, one
   use cone_newton, only: newton_solve
-  use cone_scaled, only: scaled_t, look
+  use cone_scaled, only: scaled_t, evaluate_error
   use cone_types, only: cone_options_t, certificate_t, late
   implicit none
   private
-  public :: proximal_newton, raise_friction
+  public :: proximal_newton, friction_continuation
 
   integer, parameter, public :: most_loops = 300
   integer, parameter :: few_loops = 60, most_newton = 40
@@ -42,7 +42,7 @@ contains
           norm, steps)
       certificate%newton_steps = certificate%newton_steps + steps
       trial = certificate
-      call look(p, options%tolerance, trial)
+      call evaluate_error(p, options%tolerance, trial)
       if (trial%error < certificate%error) then
         best = p%r
         certificate = trial
@@ -64,7 +64,7 @@ contains
 
   !> Where contacts wedge: the law with little friction, which has an answer that Newton finds,
   !> and from there more and more of it (a continuation in mu).
-  subroutine raise_friction(options, p, certificate)
+  subroutine friction_continuation(options, p, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
     type(certificate_t), intent(inout) :: certificate
@@ -82,7 +82,7 @@ contains
       if (late(options)) exit
       p%mu = min(mu, merge(first, reached*factor, .not. reached > zero))
       p%r = kept
-      call look(p, options%tolerance, trial)
+      call evaluate_error(p, options%tolerance, trial)
       if (.not. trial%met) call proximal_newton(options, p, .true., few_loops, trial)
       if (trial%met) then
         if (.not. any(p%mu < mu)) exit
@@ -96,12 +96,12 @@ contains
     end do
     p%mu = mu
     certificate%newton_steps = trial%newton_steps
-    call look(p, options%tolerance, trial)
+    call evaluate_error(p, options%tolerance, trial)
     if (trial%met) then
       certificate = trial
     else
       p%r = start
     end if
-  end subroutine raise_friction
+  end subroutine friction_continuation
 
 end module cone_proximal

@@ -11,13 +11,15 @@ module cone_types
   integer, parameter, public :: contact_stick = 1
   integer, parameter, public :: contact_slip = 2
   integer, parameter, public :: most_components = 3
+  integer, parameter, public :: most_pivoted = 40     !< contacts of a complementary path
   !> Local solvers: bi-potential projections, exact, Newton.
   integer, parameter, public :: local_bipot = 1, local_exact = 2, local_newton = 3
   character(8), parameter, public :: local_names(3) = [character(8) :: 'BIPOT', 'EXACT', &
       'NEWTON']
 
   type, public :: cone_options_t
-    character(8) :: solver = 'AUTO'      !< AUTO, GS
+    !> AUTO, GS, ANDERSON, NESTEROV, NEWTON, PROX, PRODUCTS
+    character(8) :: solver = 'AUTO'
     real(wp) :: tolerance = 1.0e-10_wp   !< on error and on eta
     integer :: max_sweeps = 10000
     real(wp) :: rho_factor = 1.0_wp      !< rho = factor / lmax(W_aa)
@@ -37,9 +39,9 @@ module cone_types
     real(wp) :: eta = zero
     integer :: sweeps = 0
     integer :: local_iterations = 0
-    integer :: polishes = 0        !< direct solves for given statuses
+    integer :: active_set_solves = 0        !< direct solves for given statuses
     integer :: newton_steps = 0
-    integer :: worst = 0           !< where it failed: the contact that misses its law most
+    integer :: worst = 0           !< where it failed: the contact with the largest residual
     integer :: wedged = 0          !< contacts that push with mu |W_nt| > W_nn
     integer :: first_wedged = 0
     integer :: pivotings = 0       !< paths of complementary pivoting
@@ -50,15 +52,16 @@ module cone_types
   type, public :: cone_work_t
     integer :: contacts = -1
     integer :: d = 0
-    real(wp), allocatable :: u(:, :)       !< (d, nc) relative motion for the current r
+    real(wp), allocatable :: u(:, :)       !< (d, nc) u = W r + q [L]
     real(wp), allocatable :: rho(:)        !< (nc) [1/flexibility]
-    real(wp), allocatable :: trial(:, :), trial_u(:, :)   !< (d, nc) of a polish
+    real(wp), allocatable :: trial(:, :), trial_u(:, :)   !< (d, nc) of an active set
     integer, allocatable :: status(:), tried(:)
+    ! Of the direct solve for an active set, made where one is tried.
     real(wp), allocatable :: matrix(:, :), rhs(:, :)
     integer, allocatable :: pivot(:), unknown(:, :)
   end type cone_work_t
 
-  public :: size_cone_work, local_solver, late
+  public :: size_cone_work, size_active_set, local_solver, late
 
 contains
 
@@ -75,19 +78,24 @@ contains
     type(cone_work_t), intent(inout) :: work
     integer, intent(in) :: d
     integer, intent(in) :: contacts
-    integer :: n
     if (work%contacts == contacts .and. work%d == d) return
-    n = d*contacts
-    if (allocated(work%u)) then
-      deallocate (work%u, work%rho, work%trial, work%trial_u)
-      deallocate (work%status, work%tried, work%matrix, work%rhs, work%pivot, work%unknown)
-    end if
+    if (allocated(work%u)) &
+        deallocate (work%u, work%rho, work%trial, work%trial_u, work%status, work%tried)
+    if (allocated(work%matrix)) deallocate (work%matrix, work%rhs, work%pivot, work%unknown)
     allocate (work%u(d, contacts), work%rho(contacts), work%trial(d, contacts))
     allocate (work%trial_u(d, contacts), work%status(contacts), work%tried(contacts))
-    allocate (work%matrix(n, n), work%rhs(n, 1), work%pivot(n), work%unknown(2, n))
     work%contacts = contacts
     work%d = d
   end subroutine size_cone_work
+
+  !> Space for a direct solve of all unknowns, once.
+  pure subroutine size_active_set(work)
+    type(cone_work_t), intent(inout) :: work
+    integer :: n
+    if (allocated(work%matrix)) return
+    n = work%d*work%contacts
+    allocate (work%matrix(n, n), work%rhs(n, 1), work%pivot(n), work%unknown(2, n))
+  end subroutine size_active_set
 
   !> Is the time that was given over?
   logical function late(options)

@@ -80,17 +80,17 @@ contains
       if (maxval(abs(move(:d))) <= enough) exit
     end do
     iterations = min(iterations, most)
-    call into_cone(w, mu, rho, r, u, status)
+    call project_once(w, mu, rho, r, u, status)
   end subroutine solve_newton
 
   !> A last projection, so that r is in the cone.
-  pure subroutine into_cone(w, mu, rho, r, u, status)
+  pure subroutine project_once(w, mu, rho, r, u, status)
     real(wp), intent(in) :: w(:, :), mu, rho
     real(wp), intent(inout) :: r(:), u(:)
     integer, intent(out) :: status
     integer :: iterations
     call solve_local(w, mu, rho, zero, 1, r, u, status, iterations)
-  end subroutine into_cone
+  end subroutine project_once
 
   !> I - dP (I - rho (I + mu e_n t') w), t the direction of u_t.
   pure subroutine fill_jacobian(w, mu, rho, u, part, jacobian)

@@ -95,12 +95,13 @@ contains
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n
     integer :: rows
-    if (contact%n == n .and. allocated(contact%w)) return
+    if (contact%n == n .and. allocated(contact%w%matrix)) return
     contact%n = n
-    if (allocated(contact%w)) deallocate (contact%w, contact%q, contact%mu, contact%r, &
-        contact%row_of, contact%h_dof, contact%h_weight, contact%h_size)
+    call contact%w%resize(contact%d, n)
+    if (allocated(contact%q)) deallocate (contact%q, contact%mu, contact%r, contact%row_of, &
+        contact%h_dof, contact%h_weight, contact%h_size)
     rows = contact%d*n
-    allocate (contact%w(rows, rows), contact%q(contact%d, n), contact%mu(n))
+    allocate (contact%q(contact%d, n), contact%mu(n))
     allocate (contact%r(contact%d, n), contact%row_of(n))
     allocate (contact%h_dof(most_dofs, rows), contact%h_weight(most_dofs, rows))
     allocate (contact%h_size(rows))
@@ -119,7 +120,8 @@ contains
             contact%h_weight(:, i), contact%h_size(i))
       end do
     end do
-    associate (dof => contact%h_dof, weight => contact%h_weight, column => contact%column)
+    associate (dof => contact%h_dof, weight => contact%h_weight, column => contact%column, &
+        w => contact%w%matrix)
       do j = 1, d*contact%n
         column = zero
         do k = 1, contact%h_size(j)
@@ -130,8 +132,8 @@ contains
           do k = 1, contact%h_size(i)
             entry = entry + weight(k, i)*column(dof(k, i))
           end do
-          contact%w(i, j) = entry
-          contact%w(j, i) = entry
+          w(i, j) = entry
+          w(j, i) = entry
         end do
       end do
     end associate

@@ -5,9 +5,8 @@ module contact_stage
   use base_kinds, only: wp, zero, half, one
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_strings, only: to_text
-  use cone_certificate, only: certify, mean_diagonal
-  use cone_gauss_seidel, only: solve_cone
-  use cone_local, only: may_wedge
+  use cone_certificate, only: certify
+  use cone_solver, only: solve_cone
   use cone_types, only: certificate_t, contact_open, size_cone_work
   use contact_assemble, only: find_rows, add_missing_rows, count_rows
   use contact_condense, only: build_w
@@ -177,21 +176,12 @@ contains
         call add_row_force(rows, a, one, rows%slot, force)
       end associate
     end do
-    if (contact%d > 1) call count_wedging(contact)
+    associate (tally => contact%tally)
+      if (certificate%wedged > 0 .and. tally%wedged == 0) tally%wedged_node = &
+          contact%rows%key(3, contact%row_of(certificate%first_wedged))
+      tally%wedged = tally%wedged + certificate%wedged
+    end associate
   end subroutine find_reactions
-
-  !> Contacts that push and for which W_aa alone allows several answers (mu |W_nt| > W_nn).
-  pure subroutine count_wedging(contact)
-    type(contact_t), intent(inout) :: contact
-    integer :: k
-    do k = 1, contact%n
-      if (.not. contact%r(1, k) > zero) cycle
-      if (.not. may_wedge(contact%w(2*k - 1:2*k, 2*k - 1:2*k), contact%mu(k))) cycle
-      if (contact%tally%wedged == 0) &
-          contact%tally%wedged_node = contact%rows%key(3, contact%row_of(k))
-      contact%tally%wedged = contact%tally%wedged + 1
-    end do
-  end subroutine count_wedging
 
   !> Corrects the reactions where W is known to fewer digits than the motion du (2, nodes),
   !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the new
@@ -220,11 +210,11 @@ contains
         if (-rows%u(1, a) > half*contact%penetration_tolerance*rows%length(a)) done = .false.
       end associate
     end do
-    call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
+    call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
     done = done .and. (certificate%met .or. .not. acting)
     if (done) return
-    contact%q = contact%work%u - reshape(matmul(contact%w, &
+    contact%q = contact%work%u - reshape(matmul(contact%w%matrix, &
         reshape(contact%r, [contact%d*contact%n])), [contact%d, contact%n])
     more = force
     force = zero
@@ -291,7 +281,7 @@ contains
         contact%work%u(:, k) = rows%u(1:contact%d, contact%row_of(k))
       end do
     end associate
-    call certify(mean_diagonal(contact%w), contact%mu, contact%q, contact%r, contact%work%u, &
+    call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
     call keep_worst(certificate, contact%tally%worst)
     call keep_worst(certificate, contact%tally%worst_since_row)

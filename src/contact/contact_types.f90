@@ -2,6 +2,7 @@
 !> Contact of a scene: its pairings, the rows of the step, and the condensed problem for them.
 module contact_types
   use base_kinds, only: wp, zero
+  use cone_dense, only: delassus_dense_t
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use contact_pairing, only: pairing_slot_t, late_t
   use contact_rows, only: rows_t, row_kinds
@@ -48,7 +49,8 @@ module contact_types
     ! The condensed problem: rows that are not rigid.
     integer :: n = 0
     integer, allocatable :: row_of(:)             !< (n)
-    real(wp), allocatable :: w(:, :), q(:, :), mu(:), r(:, :)
+    type(delassus_dense_t) :: w
+    real(wp), allocatable :: q(:, :), mu(:), r(:, :)
     !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)

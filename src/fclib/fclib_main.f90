@@ -7,9 +7,8 @@ program fclib_main
   use base_strings, only: to_text
   use base_system, only: leave
   use base_version, only: version
-  use cone_products, only: solve_by_products
-  use cone_solver, only: solve_contacts
-  use cone_types, only: cone_options_t, certificate_t, local_solver
+  use cone_solver, only: solve_cone
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_solver
   use hdf5_file, only: start_library
   use fclib_problem, only: problem_t, read_problem, write_problem, write_solution
   implicit none
@@ -26,10 +25,11 @@ program fclib_main
       'NEWTON', 'PROX', 'NESTEROV', 'PRODUCTS']
   type(cone_options_t) :: options
   type(problem_t) :: problem
+  type(cone_work_t) :: work
   type(certificate_t) :: certificate
   type(status_t) :: status, answer
   character(:), allocatable :: input, output, converted
-  real(wp), allocatable :: r(:, :), u(:, :)
+  real(wp), allocatable :: r(:, :)
   real(wp) :: start, finish, seconds
 
   options%tolerance = 1.0e-8_wp
@@ -42,17 +42,11 @@ program fclib_main
   if (.not. failed(status) .and. allocated(converted)) then
     call write_problem(converted, problem, status)
   else if (.not. failed(status)) then
-    allocate (r(problem%d, problem%contacts), u(problem%d, problem%contacts))
+    allocate (r(problem%d, problem%contacts))
     r = zero
     call cpu_time(start)
     options%deadline = start + seconds
-    if (options%solver == 'PRODUCTS') then
-      call solve_by_products(options, problem%w, &
-          problem%w%block(:, :, problem%w%diagonal), problem%q, problem%mu, r, u, certificate, &
-          answer)
-    else
-      call solve_contacts(options, problem%w, problem%q, problem%mu, r, u, certificate, answer)
-    end if
+    call solve_cone(options, problem%w, problem%q, problem%mu, r, work, certificate, answer)
     call cpu_time(finish)
     write (output_unit, '(a)') &
         '# problem contacts dofs solver sweeps newton cpu error error2018 eta'
@@ -63,7 +57,7 @@ program fclib_main
     if (certificate%wedged > 0) write (error_unit, '(a)') 'bipact-fclib: warning: '// &
         to_text(certificate%wedged)//' contacts wedge (mu |W_nt| > W_nn): several answers'// &
         ' may exist; the first is contact '//to_text(certificate%first_wedged)
-    if (allocated(output)) call write_solution(output, problem, r, u, &
+    if (allocated(output)) call write_solution(output, problem, r, work%u, &
         [certificate%error, certificate%error2018, certificate%eta], status)
     if (.not. failed(status) .and. failed(answer)) status = answer
   end if

@@ -6,7 +6,7 @@ module fclib_problem
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: to_text
-  use cone_blocks, only: flexibility_t, blocks_from_rows, blocks_from_dense
+  use cone_blocks, only: delassus_blocks_t, blocks_from_rows, blocks_from_dense
   use hdf5_file, only: file_t, open_file, create_file, close_file, has_path, read_integers, &
       read_reals, make_group, write_integers, write_reals
   use fclib_matrix, only: matrix_t, read_matrix, transposed, complete_half, from_triplets
@@ -19,7 +19,7 @@ module fclib_problem
   type, public :: problem_t
     integer :: d = 0, contacts = 0
     character(:), allocatable :: form            !< fclib_local, fclib_global
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
     real(wp), allocatable :: q(:, :), mu(:)
     ! global form only
     type(matrix_t) :: mass, h
@@ -146,7 +146,7 @@ contains
         to_text(w%columns)//', q holds '//to_text(size(q))//' for '// &
         to_text(problem%contacts)//' contacts')
     if (.not. all(ieee_is_finite(q))) call fail(status, status_deck, file%name// &
-        ': q holds numbers that are none (NaN or infinite)')
+        ': q holds numbers that are not finite (NaN or Inf)')
     if (failed(status)) return
     problem%q = reshape(q, [d(1), problem%contacts])
     call blocks_from_rows(d(1), w%first, w%column, w%value, problem%w)

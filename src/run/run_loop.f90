@@ -265,7 +265,7 @@ contains
       if (mod(step - c%dump_first, c%dump_every) /= 0) return
       write (name, '(a,i9.9,a)') 'contact_', step, '.txt'
       call write_contact_problem(join_path(run%folder, trim(name)), 'step '//to_text(step), &
-          p%w, p%q, p%mu, p%r, status)
+          p%w%matrix, p%q, p%mu, p%r, status)
     end associate
   end subroutine dump_contact
 

@@ -3,7 +3,7 @@
 !> strictly, B v + q in the interior of the dual cone (Acary, Cadoux, Lemarechal & Malick 2011).
 module random_contacts
   use base_kinds, only: wp, zero, one
-  use cone_blocks, only: flexibility_t, blocks_from_dense
+  use cone_blocks, only: delassus_blocks_t, blocks_from_dense
   implicit none
   private
   public :: make_problem
@@ -12,10 +12,10 @@ contains
 
   !> W (d nc, d nc) of a condition between 1 and `condition` and rank d nc / redundancy, q, for
   !> one mu.
-  subroutine make_problem(d, contacts, condition, redundancy, mu, flexibility, q)
+  subroutine make_problem(d, contacts, condition, redundancy, mu, blocks, q)
     integer, intent(in) :: d, contacts
     real(wp), intent(in) :: condition, redundancy, mu
-    type(flexibility_t), intent(out) :: flexibility
+    type(delassus_blocks_t), intent(out) :: blocks
     real(wp), intent(out) :: q(d, contacts)
     real(wp), allocatable :: b(:, :), v(:), s(:, :)
     integer :: n, rank, j, a
@@ -33,7 +33,7 @@ contains
       s(1, a) = 0.01_wp + 0.1_wp*abs(s(1, a)) + mu*sqrt(sum(s(2:, a)**2))
     end do
     q = s - 10.0_wp*reshape(matmul(b, v), [d, contacts])
-    call blocks_from_dense(matmul(b, transpose(b)), d, flexibility)
+    call blocks_from_dense(matmul(b, transpose(b)), d, blocks)
   end subroutine make_problem
 
   subroutine fill_random(x)

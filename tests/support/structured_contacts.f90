@@ -7,7 +7,7 @@
 !>          is the weight of what is above
 module structured_contacts
   use base_kinds, only: wp, zero, one
-  use cone_blocks, only: flexibility_t, blocks_from_rows
+  use cone_blocks, only: delassus_blocks_t, blocks_from_rows
   implicit none
   private
   public :: make_structure, misfit
@@ -20,7 +20,7 @@ module structured_contacts
     integer, allocatable :: low(:), high(:)    !< bodies of a contact
     real(wp), allocatable :: mass(:)           !< of the bodies [M]
     real(wp), allocatable :: axis(:, :, :)     !< (d, d, contacts): rows n, t, s
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
     real(wp), allocatable :: q(:, :), mu(:)
   end type structure_t
 

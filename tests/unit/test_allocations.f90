@@ -5,10 +5,11 @@ program test_allocations
   use base_status, only: status_t, failed
   use base_strings, only: to_text
   use check, only: test_start, test_end, check_true, check_equal, seed_random
-  use cone_blocks, only: flexibility_t, dense_of_blocks
-  use cone_gauss_seidel, only: solve_cone
-  use cone_solver, only: solve_contacts
-  use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_names
+  use cone_blocks, only: delassus_blocks_t, dense_of_blocks
+  use cone_dense, only: delassus_dense_t
+  use cone_solver, only: solve_cone
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_names, &
+      size_cone_work
   use count_allocations, only: allocations_so_far
   use deck_parameter, only: override_t
   use random_contacts, only: make_problem
@@ -44,7 +45,7 @@ contains
   !> words of the failure, whose digits vary.
   subroutine test_iterations(d)
     integer, intent(in) :: d
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
     type(cone_options_t) :: options
     integer, parameter :: n = 40, message = 30
     real(wp) :: q(d, n), mu(n)
@@ -67,39 +68,42 @@ contains
 
   integer function requests(options, w, q, mu, sweeps)
     type(cone_options_t), intent(in) :: options
-    type(flexibility_t), intent(in) :: w
+    type(delassus_blocks_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :), mu(:)
     integer, intent(in) :: sweeps
     type(cone_options_t) :: limited
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: r(size(q, 1), size(q, 2)), u(size(q, 1), size(q, 2))
+    real(wp) :: r(size(q, 1), size(q, 2))
     integer :: before
     limited = options
     limited%max_sweeps = sweeps
     r = zero
     before = allocations_so_far()
-    call solve_contacts(limited, w, q, mu, r, u, certificate, status)
+    call solve_cone(limited, w, q, mu, r, work, certificate, status)
     requests = allocations_so_far() - before
     call check_true(failed(status), to_text(sweeps)//' sweeps are all used')
   end function requests
 
   !> Newton with a proximal loop: more steps for a smaller tolerance, the same requests.
   subroutine test_newton()
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
     type(cone_options_t) :: options
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(3, 12), mu(12), r(3, 12), u(3, 12)
+    real(wp) :: q(3, 12), mu(12), r(3, 12)
     integer :: k, before, got(2), steps(2)
     mu = 0.7_wp
+    call size_cone_work(work, 3, 12)
     call make_problem(3, 12, 1.0e8_wp, 3.0_wp, mu(1), w, q)
     options%solver = 'PROX'
     do k = 1, 2
       options%tolerance = merge(1.0e-2_wp, 1.0e-10_wp, k == 1)
       r = zero
       before = allocations_so_far()
-      call solve_contacts(options, w, q, mu, r, u, certificate, status)
+      call solve_cone(options, w, q, mu, r, work, certificate, status)
       got(k) = allocations_so_far() - before
       steps(k) = certificate%newton_steps
     end do
@@ -107,24 +111,27 @@ contains
     call check_equal(got(2), got(1), 'Newton steps')
   end subroutine test_newton
 
-  !> The solver of a step with its work space made: none at all, with polish.
+  !> The solver of a step with its work space made: none at all, with a direct solve.
   subroutine test_step_solver()
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
     type(cone_options_t) :: options
     type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(2, 10), mu(10), r(2, 10), dense(20, 20)
+    real(wp) :: q(2, 10), mu(10), r(2, 10)
+    type(delassus_dense_t) :: dense
     integer :: before, k
     mu = 0.3_wp
     call make_problem(2, 10, 1.0e2_wp, 1.0_wp, mu(1), w, q)
-    call dense_of_blocks(w, dense)
+    call dense%resize(2, 10)
+    call dense_of_blocks(w, dense%matrix)
     do k = 1, 2
       r = zero
       before = allocations_so_far()
       call solve_cone(options, dense, q, mu, r, work, certificate, status)
     end do
-    call check_true(certificate%met .and. certificate%polishes > 0, 'solved, with a polish')
+    call check_true(certificate%met .and. certificate%active_set_solves > 0, &
+        'solved, with a direct solve')
     call check_equal(allocations_so_far() - before, 0, 'the solver of a step')
   end subroutine test_step_solver
 

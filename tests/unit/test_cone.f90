@@ -4,9 +4,10 @@ program test_cone
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
   use check, only: test_start, test_end, check_true, check_close, check_equal, seed_random
-  use cone_certificate, only: certify, bipotential_residual, mean_diagonal
-  use cone_gauss_seidel, only: solve_cone
+  use cone_certificate, only: certify, bipotential_residual
+  use cone_dense, only: delassus_dense_t
   use cone_local, only: project_on_cone
+  use cone_solver, only: solve_cone
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open
   use linalg_dense, only: solve_general
   implicit none
@@ -96,6 +97,26 @@ contains
     w = 0.5_wp*(w + transpose(w))
   end subroutine make_w
 
+  !> The solver on a dense W.
+  subroutine solve(options, w, q, mu, r, work, certificate, status)
+    type(cone_options_t), intent(in) :: options
+    real(wp), intent(in) :: w(:, :), q(:, :), mu(:)
+    real(wp), intent(inout) :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(out) :: certificate
+    type(status_t), intent(inout) :: status
+    type(delassus_dense_t) :: dense
+    call dense%resize(size(q, 1), size(q, 2))
+    dense%matrix = w
+    call solve_cone(options, dense, q, mu, r, work, certificate, status)
+  end subroutine solve
+
+  pure real(wp) function mean_diagonal(w)
+    real(wp), intent(in) :: w(:, :)
+    integer :: i
+    mean_diagonal = sum([(w(i, i), i=1, size(w, 1))])/size(w, 1)
+  end function mean_diagonal
+
   subroutine test_solutions(d)
     integer, intent(in) :: d
     integer :: n, m, c
@@ -125,7 +146,7 @@ contains
     real(wp) :: r(d, n), mu(n)
     mu = mu_1
     r = zero
-    call solve_cone(options, w, q, mu, r, work, certificate, status)
+    call solve(options, w, q, mu, r, work, certificate, status)
     call check_true(.not. failed(status), 'the solver converges')
     call check_true(certificate%met .and. certificate%error <= options%tolerance &
         .and. certificate%eta <= options%tolerance, 'the certificate is met')
@@ -157,7 +178,7 @@ contains
           mu = 10.0_wp**k
           r = zero
           status = status_t()
-          call solve_cone(options, w(:2*n, :2*n), q(:, :n), mu(:n), r(:, :n), work, &
+          call solve(options, w(:2*n, :2*n), q(:, :n), mu(:n), r(:, :n), work, &
               certificate, status)
           if (failed(status) .or. .not. certificate%met) unmet = unmet + 1
           rescued = rescued + certificate%pivotings
@@ -212,7 +233,7 @@ contains
     integer :: a
     bound = 4.0_wp*condition*options%tolerance*max(norm2(r), norm2(q)/mean_diagonal(w))
     start = r
-    call solve_cone(options, w, q, mu, start, work, certificate, status)
+    call solve(options, w, q, mu, start, work, certificate, status)
     call check_close(norm2(start - r), zero, bound, 'warm start from the answer')
     if (any(mu > zero)) return
     do a = 1, size(mu)
@@ -220,11 +241,11 @@ contains
       start(1, a) = abs(start(1, a))
       start(2:, a) = zero
     end do
-    call solve_cone(options, w, q, mu, start, work, certificate, status)
+    call solve(options, w, q, mu, start, work, certificate, status)
     call check_close(norm2(start - r), zero, bound, 'warm start from anywhere')
     options%warm_start = .false.
     start = one
-    call solve_cone(options, w, q, mu, start, work, certificate, status)
+    call solve(options, w, q, mu, start, work, certificate, status)
     call check_close(norm2(start - r), zero, bound, 'cold start')
   end subroutine check_warm_start
 
@@ -246,7 +267,7 @@ contains
         call fill_random(q(:, a))
       end do
       r = zero
-      call solve_cone(options, w(:d*n, :d*n), q(:, :n), mu(:n), r(:, :n), work, &
+      call solve(options, w(:d*n, :d*n), q(:, :n), mu(:n), r(:, :n), work, &
           certificate, status)
       call enumerate(n, w(1:d*n:d, 1:d*n:d), q(1, :n), exact)
       ! Error bound of the problem, as for the warm starts.
@@ -297,7 +318,7 @@ contains
     q = reshape([zero, -one, 0.5_wp, one, tiny(one), zero], [2, 3])
     r = one
     mu = 0.3_wp
-    call solve_cone(options, w, q, mu, r, work, certificate, status)
+    call solve(options, w, q, mu, r, work, certificate, status)
     call check_true(.not. (failed(status) .or. any(abs(r) > zero)), 'q_n >= 0: r = 0 exactly')
     call check_true(.not. any(abs(work%u - q) > zero), 'then u = q exactly')
     call check_true(certificate%met .and. certificate%sweeps == 0, 'and no sweep is spent')
@@ -316,11 +337,11 @@ contains
     mu = 0.3_wp
     options%solver = 'GS'
     options%max_sweeps = 1
-    call solve_cone(options, w, q, mu, r, work, certificate, status)
+    call solve(options, w, q, mu, r, work, certificate, status)
     call check_true(failed(status) .and. .not. certificate%met, 'one sweep is not enough')
     if (.not. failed(status)) return
     call check_true(index(status%message, 'did not converge in 1 sweeps') > 0, 'it is told')
-    call check_equal(certificate%polishes, 0, 'GS solves nothing directly')
+    call check_equal(certificate%active_set_solves, 0, 'GS solves nothing directly')
   end subroutine test_failure
 
   !> Nearest point of the cone among the vector itself, the two edges in the plane of its

@@ -5,11 +5,11 @@ program test_cone_solver
   use base_status, only: status_t, failed
   use base_strings, only: to_text
   use check, only: test_start, test_end, check_true, check_close, check_equal, seed_random
-  use cone_blocks, only: flexibility_t, blocks_from_dense, blocks_from_rows, dense_of_blocks, &
-      find_components, motions
-  use cone_products, only: solve_by_products
-  use cone_solver, only: solve_contacts
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_blocks, only: delassus_blocks_t, blocks_from_dense, blocks_from_rows, &
+      dense_of_blocks, find_components
+  use cone_products, only: delassus_products_t, make_products
+  use cone_solver, only: solve_cone
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use linalg_dense, only: largest_eigenvalue
   use random_contacts, only: make_problem
   use structured_contacts, only: structure_t, make_structure, misfit
@@ -41,7 +41,7 @@ contains
 
   !> Dense, by entries (in two halves that add up), and back: the same numbers.
   subroutine test_blocks()
-    type(flexibility_t) :: w, other
+    type(delassus_blocks_t) :: w, other
     real(wp) :: dense(6, 6), again(6, 6), values(72), q(3, 2), r(3, 2), u(3, 2)
     integer :: pointer(7), columns(72), i
     call random_number(dense)
@@ -58,7 +58,7 @@ contains
     call check_true(.not. any(abs(again - dense) > zero), 'entries of one place add up')
     call random_number(q)
     call random_number(r)
-    call motions(w, q, r, u)
+    call w%displacements(q, r, u)
     call check_close(maxval(abs(reshape(u - q, [6]) - matmul(dense, reshape(r, [6])))), zero, &
         8.0_wp*eps, 'W r + q')
   end subroutine test_blocks
@@ -122,22 +122,23 @@ contains
     integer, intent(in) :: d, n
     real(wp), intent(in) :: condition, redundancy, mu_1
     integer, intent(inout) :: unsolved, wrong
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(d, n), mu(n), r(d, n), u(d, n), slack
+    real(wp) :: q(d, n), mu(n), r(d, n), slack
     integer :: a
     mu = mu_1
     call make_problem(d, n, condition, redundancy, mu_1, w, q)
     r = zero
-    call solve_contacts(options, w, q, mu, r, u, certificate, status)
+    call solve_cone(options, w, q, mu, r, work, certificate, status)
     if (failed(status)) unsolved = unsolved + 1
     if (failed(status) .eqv. certificate%met) wrong = wrong + 1   ! a miss has its status
-    slack = 1.0e-7_wp*max(norm2(q), norm2(u))*(one + mu_1)
+    slack = 1.0e-7_wp*max(norm2(q), norm2(work%u))*(one + mu_1)
     do a = 1, n
       if (norm2(r(2:, a)) > (one + 16.0_wp*eps)*mu_1*r(1, a) + 1.0e-8_wp*norm2(r)) &
           wrong = wrong + 1
-      if (certificate%met .and. u(1, a) < -slack) wrong = wrong + 1
+      if (certificate%met .and. work%u(1, a) < -slack) wrong = wrong + 1
     end do
   end subroutine solve_one
 
@@ -149,48 +150,51 @@ contains
     integer, intent(in) :: d, n
     type(structure_t) :: s
     type(cone_options_t) :: options
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: r(d, n), u(d, n)
+    real(wp) :: r(d, n)
     call make_structure(kind, d, n, s)
     r = zero
     options%max_sweeps = 100000
-    call solve_contacts(options, s%w, s%q, s%mu, r, u, certificate, status)
+    call solve_cone(options, s%w, s%q, s%mu, r, work, certificate, status)
     call check_true(certificate%met, kind//' of '//to_text(n)//' is solved')
     call check_close(misfit(s, r), zero, n**2*options%tolerance, kind//': what is known')
   end subroutine test_structure
 
-  !> By products with W alone: the answer of the other means, to the two certificates, where W
+  !> By products with W alone: the answer of the other methods, to the two certificates, where W
   !> is well conditioned and the answer one.
   subroutine test_products()
-    type(flexibility_t) :: w
+    type(delassus_blocks_t), target :: blocks
+    type(delassus_products_t) :: w
     type(cone_options_t) :: options
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(3, 20), mu(20), r(3, 20), other(3, 20), u(3, 20)
+    real(wp) :: q(3, 20), mu(20), r(3, 20), other(3, 20)
     mu = 0.3_wp
-    call make_problem(3, 20, 10.0_wp, one, 0.3_wp, w, q)
+    call make_problem(3, 20, 10.0_wp, one, 0.3_wp, blocks, q)
+    call make_products(blocks, blocks%block(:, :, blocks%diagonal), w)
     r = zero
     other = zero
-    call solve_contacts(options, w, q, mu, r, u, certificate, status)
-    call solve_by_products(options, w, w%block(:, :, w%diagonal), q, mu, other, u, &
-        certificate, status)
+    call solve_cone(options, blocks, q, mu, r, work, certificate, status)
+    call solve_cone(options, w, q, mu, other, work, certificate, status)
     call check_true(.not. failed(status) .and. certificate%met, 'by products: certified')
     call check_close(norm2(r - other), zero, 1.0e-7_wp*norm2(r), 'by products: the same')
     options%max_sweeps = 10
     options%warm_start = .false.
-    call solve_by_products(options, w, w%block(:, :, w%diagonal), q, mu, other, u, &
-        certificate, status)
+    call solve_cone(options, w, q, mu, other, work, certificate, status)
     call check_true(failed(status) .and. certificate%worst > 0, 'by products: a miss is told')
   end subroutine test_products
 
   !> Two problems in one, their contacts mixed: two groups, and the reactions of each alone.
   subroutine test_groups()
     type(cone_options_t) :: options
-    type(flexibility_t) :: w(2), both
+    type(delassus_blocks_t) :: w(2), both
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(3, 8), dense(24, 24), part(12, 12), mu(8), r(3, 8), alone(3, 4), u(3, 8)
+    real(wp) :: q(3, 8), dense(24, 24), part(12, 12), mu(8), r(3, 8), alone(3, 4)
     integer, allocatable :: first(:), member(:)
     integer :: k, i, rows(12)
     dense = zero
@@ -207,11 +211,11 @@ contains
     r = zero
     call find_components(both, first, member)
     call check_equal(size(first) - 1, 2, 'two groups')
-    call solve_contacts(options, both, q, mu, r, u, certificate, status)
+    call solve_cone(options, both, q, mu, r, work, certificate, status)
     call check_true(certificate%met, 'both are solved')
     do k = 1, 2
       alone = zero
-      call solve_contacts(options, w(k), q(:, k::2), mu(:4), alone, u(:, :4), &
+      call solve_cone(options, w(k), q(:, k::2), mu(:4), alone, work, &
           certificate, status)
       ! A unique solution, W of condition 10: both lie within 1e-10 times that of it.
       call check_close(norm2(alone - r(:, k::2)), zero, 1.0e-7_wp*norm2(alone), 'each alone')
@@ -221,34 +225,36 @@ contains
   !> Units by powers of two change no digit.
   subroutine test_units()
     type(cone_options_t) :: options
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(3, 6), mu(6), r(3, 6), other(3, 6), u(3, 6)
+    real(wp) :: q(3, 6), mu(6), r(3, 6), other(3, 6)
     mu = 0.5_wp
     call make_problem(3, 6, 1.0e4_wp, one, 0.5_wp, w, q)
     r = zero
-    call solve_contacts(options, w, q, mu, r, u, certificate, status)
+    call solve_cone(options, w, q, mu, r, work, certificate, status)
     w%block = w%block*2.0_wp**40
     other = zero
-    call solve_contacts(options, w, q*2.0_wp**(-30), mu, other, u, certificate, status)
+    call solve_cone(options, w, q*2.0_wp**(-30), mu, other, work, certificate, status)
     call check_true(.not. any(abs(other*2.0_wp**70 - r) > zero), 'units change no digit')
   end subroutine test_units
 
   !> One sweep is not enough: a named failure with the error that was reached.
   subroutine test_failure()
     type(cone_options_t) :: options
-    type(flexibility_t) :: w
+    type(delassus_blocks_t) :: w
+    type(cone_work_t) :: work
     type(certificate_t) :: certificate
     type(status_t) :: status
-    real(wp) :: q(3, 6), mu(6), r(3, 6), u(3, 6)
+    real(wp) :: q(3, 6), mu(6), r(3, 6)
     mu = 0.5_wp
     call make_problem(3, 6, 1.0e4_wp, one, 0.5_wp, w, q)
     options%solver = 'GS'
     options%max_sweeps = 1
     options%tolerance = 1.0e-14_wp
     r = zero
-    call solve_contacts(options, w, q, mu, r, u, certificate, status)
+    call solve_cone(options, w, q, mu, r, work, certificate, status)
     call check_true(failed(status) .and. .not. certificate%met, 'a failure has its status')
     call check_true(certificate%error > options%tolerance, 'and its error')
   end subroutine test_failure

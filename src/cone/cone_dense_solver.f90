@@ -1,0 +1,123 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The contact problem on a dense W, the solver of a step: sweeps and, for the statuses they
+!> have found, a direct solve; where that is slow, complementary pivoting and the solver on blocks.
+module cone_dense_solver
+  use base_kinds, only: wp
+  use base_status, only: status_t
+  use cone_active_set, only: try_active_set, try_pivoting
+  use cone_blocks, only: delassus_blocks_t, blocks_from_dense
+  use cone_blocks_solver, only: solve_blocks
+  use cone_certificate, only: certify, find_statuses, fail_uncertified
+  use cone_dense, only: delassus_dense_t
+  use cone_sweep, only: find_rho, sweep_contacts
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open, &
+      contact_slip, most_pivoted
+  implicit none
+  private
+  public :: solve_dense
+
+  !> A direct solve for the statuses is tried up to this many unknowns, and beyond it only when
+  !> more sweeps than unknowns have been spent.
+  integer, parameter :: small_system = 64
+
+  !> Sweeps after which the other methods are tried.
+  integer, parameter :: patience = 200
+
+contains
+
+  !> Solves u = W r + q with r in the cones. W [L/F], q (d, nc) [L], mu (nc); r (d, nc) on entry
+  !> is the start, on exit the reactions [F]; work%u the displacements [L], work%status the
+  !> statuses. Fails when neither sweeps nor direct solves meet the tolerance.
+  subroutine solve_dense(options, w, q, mu, r, work, certificate, status)
+    type(cone_options_t), intent(in) :: options
+    type(delassus_dense_t), intent(in) :: w
+    real(wp), intent(in), contiguous :: q(:, :)
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(inout), contiguous :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    type(status_t), intent(inout) :: status
+    real(wp) :: m, change
+    integer :: sweep
+    m = w%mean_diagonal()
+    if (options%solver /= 'AUTO' .and. options%solver /= 'GS') then
+      call solve_by_blocks(options, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+    end if
+    call find_rho(w, options%rho_factor, work%rho)
+    call w%displacements(q, r, work%u)
+    work%tried = -1
+    change = huge(change)
+    do sweep = 1, options%max_sweeps
+      call sweep_contacts(options, w, mu, work%rho, q, r, work%u, work%status, change, &
+          certificate%local_iterations)
+      certificate%sweeps = sweep
+      call certify(m, mu, q, r, work%u, options%tolerance, certificate)
+      if (options%solver /= 'GS' .and. active_set_is_due(sweep, work)) &
+          call try_active_set(options%tolerance, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+      if (sweep == patience .and. options%solver /= 'GS') &
+          call fallback(options, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+    end do
+    call fail_uncertified(m, w, mu, r, work%u, certificate, status)
+  end subroutine solve_dense
+
+  !> A direct solve is worth it when the statuses are new and the system is small or the sweeps
+  !> slow.
+  pure logical function active_set_is_due(sweep, work) result(due)
+    integer, intent(in) :: sweep
+    type(cone_work_t), intent(in) :: work
+    integer :: unknowns
+    unknowns = sum(merge(0, merge(1, work%d, work%status == contact_slip), &
+        work%status == contact_open))
+    due = unknowns > 0 .and. work%d < 3 .and. (unknowns <= small_system .or. sweep > unknowns)
+    if (due) due = any(work%status /= work%tried)
+  end function active_set_is_due
+
+  !> Where sweeps are slow: complementary pivoting for few contacts in the plane, then the
+  !> solver on blocks.
+  subroutine fallback(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(delassus_dense_t), intent(in) :: w
+    real(wp), intent(in) :: q(:, :)
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout) :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    if (size(q, 1) == 2 .and. size(mu) <= most_pivoted) &
+        call try_pivoting(options%tolerance, w, q, mu, m, r, work, certificate)
+    if (.not. certificate%met) &
+        call solve_by_blocks(options, w, q, mu, m, r, work, certificate)
+  end subroutine fallback
+
+  !> The solver on blocks, from r. Kept if its certificate is met.
+  subroutine solve_by_blocks(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(delassus_dense_t), intent(in) :: w
+    real(wp), intent(in) :: q(:, :)
+    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout) :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    type(certificate_t) :: trial
+    type(delassus_blocks_t) :: blocks
+    type(status_t) :: answer
+    real(wp), dimension(size(q, 1), size(q, 2)) :: other, u
+    other = r
+    call blocks_from_dense(w%matrix, size(q, 1), blocks)
+    call solve_blocks(options, blocks, q, mu, other, u, trial, answer)
+    certificate%sweeps = certificate%sweeps + trial%sweeps
+    certificate%newton_steps = certificate%newton_steps + trial%newton_steps
+    if (.not. trial%met) return
+    trial%sweeps = certificate%sweeps
+    trial%newton_steps = certificate%newton_steps
+    certificate = trial
+    r = other
+    work%u = u
+    call find_statuses(m, mu, r, u, work%status)
+  end subroutine solve_by_blocks
+
+end module cone_dense_solver
