@@ -5,7 +5,7 @@
 !> statuses come from sweeps, or from complementary pivoting.
 module cone_active_set
   use base_kinds, only: wp, zero, one
-  use cone_certificate, only: certify
+  use cone_certificate, only: evaluate_certificate
   use cone_dense, only: delassus_dense_t
   use cone_local, only: in_cone
   use cone_pivoting, only: pivot_statuses
@@ -23,8 +23,9 @@ contains
   subroutine try_active_set(tolerance, w, q, mu, m, r, work, certificate)
     real(wp), intent(in) :: tolerance
     type(delassus_dense_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :), mu(:), m
-    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout), contiguous :: r(:, :)
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
@@ -40,7 +41,7 @@ contains
     end do
     call w%displacements(q, work%trial, work%trial_u)
     trial = certificate
-    call certify(m, mu, q, work%trial, work%trial_u, tolerance, trial)
+    call evaluate_certificate(m, mu, q, work%trial, work%trial_u, tolerance, trial)
     if (.not. trial%met .or. trial%error > certificate%error) return
     certificate = trial
     r = work%trial
@@ -52,8 +53,9 @@ contains
   subroutine try_pivoting(tolerance, w, q, mu, m, r, work, certificate)
     real(wp), intent(in) :: tolerance
     type(delassus_dense_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :), mu(:), m
-    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout), contiguous :: r(:, :)
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     real(wp) :: start(2, size(mu))

@@ -2,7 +2,7 @@
 !> W by blocks of d x d, row by row; blocks of zeros are left out.
 module cone_blocks
   use base_kinds, only: wp, zero
-  use cone_delassus, only: delassus_entries_t
+  use cone_delassus, only: delassus_t, delassus_entries_t
   use cone_types, only: cone_options_t, most_components
   use cone_visit, only: visit_contact
   implicit none
@@ -17,6 +17,7 @@ module cone_blocks
     real(wp), allocatable :: block(:, :, :)  !< (d, d, blocks) [L/F]
   contains
     procedure :: diagonal_block
+    procedure :: rescaled
     procedure :: add_product
     procedure :: visit
   end type delassus_blocks_t
@@ -106,6 +107,21 @@ contains
     real(wp), intent(inout) :: block(most_components, most_components)
     block(:this%d, :this%d) = this%block(:, :, this%diagonal(a))
   end subroutine diagonal_block
+
+  subroutine rescaled(this, power, other)
+    class(delassus_blocks_t), intent(in) :: this
+    integer, intent(in) :: power
+    class(delassus_t), allocatable, intent(out) :: other
+    type(delassus_blocks_t), allocatable :: w
+    allocate (w)
+    w%d = this%d
+    w%contacts = this%contacts
+    w%first = this%first
+    w%column = this%column
+    w%diagonal = this%diagonal
+    w%block = scale(this%block, power)
+    call move_alloc(w, other)
+  end subroutine rescaled
 
   pure subroutine add_product(this, r, u)
     class(delassus_blocks_t), intent(in) :: this

@@ -7,7 +7,7 @@ module cone_blocks_solver
   use base_status, only: status_t
   use cone_active_set, only: try_pivoting
   use cone_blocks, only: delassus_blocks_t, find_components, take_component, dense_of_blocks
-  use cone_certificate, only: certify, fail_uncertified
+  use cone_certificate, only: evaluate_certificate, fail_uncertified
   use cone_dense, only: delassus_dense_t
   use cone_local, only: may_wedge
   use cone_proximal, only: proximal_newton, friction_continuation, most_loops
@@ -22,18 +22,18 @@ module cone_blocks_solver
 contains
 
   !> Reactions r (d, nc) [F] and displacements u (d, nc) [L] for W [L/F], q (d, nc) [L], mu
-  !> (nc); r on entry is the start. Fails when no method meets the tolerance; the certificate
-  !> says how near it came.
-  subroutine solve_blocks(options, w, q, mu, r, u, certificate, status)
+  !> (nc), m the mean diagonal of W; r on entry is the start. Fails when no method meets the
+  !> tolerance; the certificate says how near it came.
+  subroutine solve_blocks(options, w, q, mu, m, r, u, certificate, status)
     type(cone_options_t), intent(in) :: options
     type(delassus_blocks_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :), mu(:)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
     real(wp), intent(inout), contiguous :: r(:, :), u(:, :)
     type(certificate_t), intent(inout) :: certificate
     type(status_t), intent(inout) :: status
     integer, allocatable :: first(:), member(:), place(:)
     type(delassus_blocks_t) :: part
-    real(wp) :: m
     integer :: k
     call find_components(w, first, member)
     allocate (place(w%contacts))
@@ -45,8 +45,7 @@ contains
       end associate
     end do
     call w%displacements(q, r, u)
-    m = w%mean_diagonal()
-    call certify(m, mu, q, r, u, options%tolerance, certificate)
+    call evaluate_certificate(m, mu, q, r, u, options%tolerance, certificate)
     if (.not. certificate%met) call fail_uncertified(m, w, mu, r, u, certificate, status)
   end subroutine solve_blocks
 

@@ -18,6 +18,7 @@ module cone_delassus
     integer :: d = 0, contacts = 0          !< components of a contact; contacts
   contains
     procedure(diagonal_block_i), deferred :: diagonal_block
+    procedure(rescaled_i), deferred :: rescaled
     procedure, non_overridable :: mean_diagonal
   end type delassus_t
 
@@ -46,6 +47,14 @@ module cone_delassus
       integer, intent(in) :: a
       real(wp), intent(inout) :: block(most_components, most_components)
     end subroutine diagonal_block_i
+
+    !> other = 2^power W.
+    subroutine rescaled_i(this, power, other)
+      import :: delassus_t
+      class(delassus_t), intent(in) :: this
+      integer, intent(in) :: power
+      class(delassus_t), allocatable, intent(out) :: other
+    end subroutine rescaled_i
 
     !> u = u + W r, both (d, nc), [L] and [F].
     pure subroutine add_product_i(this, r, u)

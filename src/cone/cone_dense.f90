@@ -3,7 +3,7 @@
 !> that rest cost nothing.
 module cone_dense
   use base_kinds, only: wp, zero
-  use cone_delassus, only: delassus_entries_t
+  use cone_delassus, only: delassus_t, delassus_entries_t
   use cone_types, only: cone_options_t, most_components
   use cone_visit, only: visit_contact
   implicit none
@@ -15,6 +15,7 @@ module cone_dense
   contains
     procedure :: resize
     procedure :: diagonal_block
+    procedure :: rescaled
     procedure :: add_product
     procedure :: visit
   end type delassus_dense_t
@@ -44,6 +45,17 @@ contains
       end do
     end do
   end subroutine diagonal_block
+
+  subroutine rescaled(this, power, other)
+    class(delassus_dense_t), intent(in) :: this
+    integer, intent(in) :: power
+    class(delassus_t), allocatable, intent(out) :: other
+    type(delassus_dense_t), allocatable :: w
+    allocate (w)
+    call w%resize(this%d, this%contacts)
+    w%matrix = scale(this%matrix, power)
+    call move_alloc(w, other)
+  end subroutine rescaled
 
   pure subroutine add_product(this, r, u)
     class(delassus_dense_t), intent(in) :: this

@@ -1,13 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The contact problem on a dense W, the solver of a step: sweeps and, for the statuses they
-!> have found, a direct solve; where that is slow, complementary pivoting and the solver on blocks.
+!> have found, a direct solve; where that is slow, complementary pivoting and the solver on
+!> blocks.
 module cone_dense_solver
   use base_kinds, only: wp
   use base_status, only: status_t
   use cone_active_set, only: try_active_set, try_pivoting
   use cone_blocks, only: delassus_blocks_t, blocks_from_dense
   use cone_blocks_solver, only: solve_blocks
-  use cone_certificate, only: certify, find_statuses, fail_uncertified
+  use cone_certificate, only: evaluate_certificate, find_statuses, fail_uncertified
   use cone_dense, only: delassus_dense_t
   use cone_sweep, only: find_rho, sweep_contacts
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open, &
@@ -25,21 +26,21 @@ module cone_dense_solver
 
 contains
 
-  !> Solves u = W r + q with r in the cones. W [L/F], q (d, nc) [L], mu (nc); r (d, nc) on entry
-  !> is the start, on exit the reactions [F]; work%u the displacements [L], work%status the
-  !> statuses. Fails when neither sweeps nor direct solves meet the tolerance.
-  subroutine solve_dense(options, w, q, mu, r, work, certificate, status)
+  !> Solves u = W r + q with r in the cones. W [L/F], q (d, nc) [L], mu (nc), m the mean
+  !> diagonal of W; r (d, nc) on entry is the start, on exit the reactions [F]; work%u the
+  !> displacements [L], work%status the statuses. Fails when neither sweeps nor direct solves
+  !> meet the tolerance.
+  subroutine solve_dense(options, w, q, mu, m, r, work, certificate, status)
     type(cone_options_t), intent(in) :: options
     type(delassus_dense_t), intent(in) :: w
-    real(wp), intent(in), contiguous :: q(:, :)
-    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
     real(wp), intent(inout), contiguous :: r(:, :)
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     type(status_t), intent(inout) :: status
-    real(wp) :: m, change
+    real(wp) :: change
     integer :: sweep
-    m = w%mean_diagonal()
     if (options%solver /= 'AUTO' .and. options%solver /= 'GS') then
       call solve_by_blocks(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
@@ -52,7 +53,7 @@ contains
       call sweep_contacts(options, w, mu, work%rho, q, r, work%u, work%status, change, &
           certificate%local_iterations)
       certificate%sweeps = sweep
-      call certify(m, mu, q, r, work%u, options%tolerance, certificate)
+      call evaluate_certificate(m, mu, q, r, work%u, options%tolerance, certificate)
       if (options%solver /= 'GS' .and. active_set_is_due(sweep, work)) &
           call try_active_set(options%tolerance, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
@@ -80,10 +81,9 @@ contains
   subroutine fallback(options, w, q, mu, m, r, work, certificate)
     type(cone_options_t), intent(in) :: options
     type(delassus_dense_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :)
-    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
     real(wp), intent(in) :: m
-    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(inout), contiguous :: r(:, :)
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     if (size(q, 1) == 2 .and. size(mu) <= most_pivoted) &
@@ -96,10 +96,9 @@ contains
   subroutine solve_by_blocks(options, w, q, mu, m, r, work, certificate)
     type(cone_options_t), intent(in) :: options
     type(delassus_dense_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :)
-    real(wp), intent(in) :: mu(:)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
     real(wp), intent(in) :: m
-    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(inout), contiguous :: r(:, :)
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
@@ -108,7 +107,7 @@ contains
     real(wp), dimension(size(q, 1), size(q, 2)) :: other, u
     other = r
     call blocks_from_dense(w%matrix, size(q, 1), blocks)
-    call solve_blocks(options, blocks, q, mu, other, u, trial, answer)
+    call solve_blocks(options, blocks, q, mu, m, other, u, trial, answer)
     certificate%sweeps = certificate%sweeps + trial%sweeps
     certificate%newton_steps = certificate%newton_steps + trial%newton_steps
     if (.not. trial%met) return

@@ -70,7 +70,7 @@ contains
   subroutine gradient_step(w, q, mu, r, g)
     class(operator_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :), mu(:)
-    real(wp), intent(inout) :: r(:, :)
+    real(wp), intent(inout), contiguous :: r(:, :)
     type(gradient_t), intent(inout) :: g
     real(wp) :: tau(most_components), weight, against
     integer :: a, d, status
@@ -79,7 +79,7 @@ contains
     against = zero
     do a = 1, size(mu)
       g%u(:, a) = g%u(:, a) + q(:, a)
-      call predict_and_correct(mu(a), g%rho(a), g%point(:, a), g%u(:, a), tau(:d), r(:, a), &
+      call predict_and_correct(d, mu(a), g%rho(a), g%point(:, a), g%u(:, a), tau, r(:, a), &
           status)
       against = against + dot_product(g%point(:, a) - r(:, a), r(:, a) - g%before(:, a))
     end do

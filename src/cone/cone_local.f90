@@ -25,23 +25,48 @@ contains
     end select
   end function tangent_length
 
+  !> The same of v(d).
+  pure real(wp) function length_of(d, v)
+    integer, intent(in) :: d
+    real(wp), intent(in) :: v(d)
+    length_of = zero
+    if (d == 2) length_of = abs(v(2))
+    if (d > 2) length_of = sqrt(v(2)**2 + v(3)**2)
+  end function length_of
+
   !> Does W_aa = w alone allow several answers, or none? mu |W_nt| > W_nn (Klarbring 1990).
   pure logical function may_wedge(w, mu)
     real(wp), intent(in) :: w(:, :)
     real(wp), intent(in) :: mu
+    real(wp) :: row(most_components), length
+    integer :: d
     may_wedge = .false.
-    if (size(w, 1) > 1) may_wedge = mu*sqrt(sum(w(1, 2:)**2)) > w(1, 1)
+    d = size(w, 1)
+    if (d == 1) return
+    row(:d) = scale(w(1, :), -exponent(w(1, 1)))
+    length = tangent_length(row(:d))
+    may_wedge = mu*length > row(1)
+    if (mu > one) may_wedge = length > row(1)/mu
   end function may_wedge
 
   !> r = projection of tau on {|r_t| <= mu r_n}, and which part of the cone it lies on (De Saxce
   !> & Feng 1991). The polar cone is tested first.
   pure subroutine project_on_cone(mu, tau, r, status)
     real(wp), intent(in) :: mu
-    real(wp), intent(in) :: tau(:)
-    real(wp), intent(out) :: r(:)
+    real(wp), intent(in), contiguous :: tau(:)
+    real(wp), intent(out), contiguous :: r(:)
+    integer, intent(out) :: status
+    call project(size(tau), mu, tau, r, status)
+  end subroutine project_on_cone
+
+  pure subroutine project(d, mu, tau, r, status)
+    integer, intent(in) :: d
+    real(wp), intent(in) :: mu
+    real(wp), intent(in) :: tau(d)
+    real(wp), intent(out) :: r(d)
     integer, intent(out) :: status
     real(wp) :: length
-    length = tangent_length(tau)
+    length = length_of(d, tau)
     if (mu*length <= -tau(1)) then
       r = zero
       status = contact_open
@@ -53,7 +78,7 @@ contains
       if (length > zero) r(2:) = mu*r(1)*tau(2:)/length
       status = contact_slip
     end if
-  end subroutine project_on_cone
+  end subroutine project
 
   !> dP/dtau (d, d) at tau, with P = projected and its status: zero, the identity, or on the
   !> slip side that of the cone (Joli & Feng 2008).
@@ -87,16 +112,17 @@ contains
     end do
   end subroutine projection_derivative
 
-  !> Predictor tau = r - rho (u_n + mu |u_t|, u_t) and corrector P_K(tau) with its status (De
-  !> Saxce & Feng 1998). r - P_K(tau) is the natural map of the contact.
-  pure subroutine predict_and_correct(mu, rho, r, u, tau, corrected, status)
+  !> Predictor tau = r - rho (u_n + mu |u_t|, u_t) and corrector P_K(tau) of d components with
+  !> its status (De Saxce & Feng 1998). r - P_K(tau) is the natural map of the contact.
+  pure subroutine predict_and_correct(d, mu, rho, r, u, tau, corrected, status)
+    integer, intent(in) :: d
     real(wp), intent(in) :: mu, rho
-    real(wp), intent(in) :: r(:), u(:)
-    real(wp), intent(out) :: tau(:), corrected(:)
+    real(wp), intent(in) :: r(d), u(d)
+    real(wp), intent(out) :: tau(d), corrected(d)
     integer, intent(out) :: status
     tau = r - rho*u
-    tau(1) = tau(1) - rho*mu*tangent_length(u)
-    call project_on_cone(mu, tau, corrected, status)
+    tau(1) = tau(1) - rho*mu*length_of(d, u)
+    call project(d, mu, tau, corrected, status)
   end subroutine predict_and_correct
 
   !> r in K, to round-off on the slip side.
@@ -110,13 +136,14 @@ contains
 
   !> map = r - P_K(tau) of one contact, the derivative (d, d) of P_K at tau, the status there.
   pure subroutine contact_map(mu, rho, r, u, map, part, status)
-    real(wp), intent(in) :: mu, rho, r(:), u(:)
+    real(wp), intent(in) :: mu, rho
+    real(wp), intent(in), contiguous :: r(:), u(:)
     real(wp), intent(out) :: map(:), part(:, :)
     integer, intent(out) :: status
     real(wp), dimension(most_components) :: tau, projected
     integer :: d
     d = size(r)
-    call predict_and_correct(mu, rho, r, u, tau(:d), projected(:d), status)
+    call predict_and_correct(d, mu, rho, r, u, tau, projected, status)
     map = r - projected(:d)
     call projection_derivative(mu, tau(:d), projected(:d), status, part)
   end subroutine contact_map
@@ -130,8 +157,8 @@ contains
     real(wp), intent(in) :: rho
     real(wp), intent(in) :: enough
     integer, intent(in) :: max_iterations
-    real(wp), intent(inout) :: r(:)
-    real(wp), intent(inout) :: u(:)
+    real(wp), intent(inout), contiguous :: r(:)
+    real(wp), intent(inout), contiguous :: u(:)
     integer, intent(out) :: status
     integer, intent(out) :: iterations
     real(wp), dimension(most_components) :: tau, next, change
@@ -139,7 +166,7 @@ contains
     d = size(r)
     status = contact_open
     do iterations = 1, max_iterations
-      call predict_and_correct(mu, rho, r, u, tau(:d), next(:d), status)
+      call predict_and_correct(d, mu, rho, r, u, tau, next, status)
       change(:d) = next(:d) - r
       do i = 1, d
         u = u + w(:, i)*change(i)

@@ -10,10 +10,12 @@ module cone_products
 
   type, extends(delassus_t), public :: delassus_products_t
     class(operator_t), pointer :: product => null()   !< its owner keeps it
+    integer :: power = 0                              !< W = 2^power x product
     real(wp), allocatable :: diagonal(:, :, :)        !< (d, d, nc) W_aa [L/F]
   contains
     procedure :: apply
     procedure :: diagonal_block
+    procedure :: rescaled
   end type delassus_products_t
 
 contains
@@ -36,7 +38,22 @@ contains
     real(wp), intent(in), contiguous :: r(:, :)
     real(wp), intent(out), contiguous :: u(:, :)
     call this%product%apply(r, u)
+    if (this%power /= 0) u = scale(u, this%power)
   end subroutine apply
+
+  subroutine rescaled(this, power, other)
+    class(delassus_products_t), intent(in) :: this
+    integer, intent(in) :: power
+    class(delassus_t), allocatable, intent(out) :: other
+    type(delassus_products_t), allocatable :: w
+    allocate (w)
+    w%d = this%d
+    w%contacts = this%contacts
+    w%product => this%product
+    w%power = this%power + power
+    w%diagonal = scale(this%diagonal, power)
+    call move_alloc(w, other)
+  end subroutine rescaled
 
   pure subroutine diagonal_block(this, a, block)
     class(delassus_products_t), intent(in) :: this

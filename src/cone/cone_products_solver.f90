@@ -3,7 +3,7 @@
 module cone_products_solver
   use base_kinds, only: wp
   use base_status, only: status_t
-  use cone_certificate, only: certify, fail_uncertified
+  use cone_certificate, only: evaluate_certificate, fail_uncertified
   use cone_delassus, only: delassus_t
   use cone_gradient, only: gradient_t, start_gradient, restart_gradient, gradient_step
   use cone_types, only: cone_options_t, certificate_t, late
@@ -15,20 +15,20 @@ module cone_products_solver
 
 contains
 
-  !> Reactions r (d, nc) [F] and displacements u = W r + q (d, nc) [L]; r on entry is the start.
+  !> Reactions r (d, nc) [F] and displacements u = W r + q (d, nc) [L]; r on entry is the start,
+  !> m the mean diagonal of W [L/F].
   !> Takes at most options%max_sweeps products, counted as sweeps. Fails when the certificate is
   !> not met.
-  subroutine solve_by_products(options, w, q, mu, r, u, certificate, status)
+  subroutine solve_by_products(options, w, q, mu, m, r, u, certificate, status)
     type(cone_options_t), intent(in) :: options
     class(delassus_t), intent(in) :: w
-    real(wp), intent(in) :: q(:, :), mu(:)
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
     real(wp), intent(inout), contiguous :: r(:, :), u(:, :)
     type(certificate_t), intent(inout) :: certificate
     type(status_t), intent(inout) :: status
     type(gradient_t) :: g
-    real(wp) :: m
     integer :: k
-    m = w%mean_diagonal()
     call start_gradient(w, options%rho_factor, g)
     call restart_gradient(r, g)
     do while (certificate%sweeps < options%max_sweeps)
@@ -39,7 +39,7 @@ contains
       call w%apply(r, u)
       u = u + q
       certificate%sweeps = certificate%sweeps + chunk + 1
-      call certify(m, mu, q, r, u, options%tolerance, certificate)
+      call evaluate_certificate(m, mu, q, r, u, options%tolerance, certificate)
       if (certificate%met) return
     end do
     call fail_uncertified(m, w, mu, r, u, certificate, status)

@@ -5,7 +5,7 @@ module cone_scaled
   use base_kinds, only: wp, zero, one
   use cone_anderson, only: anderson_t, start_anderson, extrapolate
   use cone_blocks, only: delassus_blocks_t
-  use cone_certificate, only: certify
+  use cone_certificate, only: evaluate_certificate
   use cone_gradient, only: gradient_t, start_gradient, restart_gradient, gradient_step
   use cone_local, only: project_on_cone
   use cone_newton, only: newton_work_t
@@ -71,7 +71,7 @@ contains
     real(wp), intent(in) :: tolerance
     type(certificate_t), intent(inout) :: certificate
     call p%w%displacements(p%q, p%r, p%u)
-    call certify(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
+    call evaluate_certificate(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
   end subroutine evaluate_error
 
   !> Some sweeps, the last of them always plain, so that r is in its cones; or steps with

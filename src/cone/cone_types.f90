@@ -12,6 +12,10 @@ module cone_types
   integer, parameter, public :: contact_slip = 2
   integer, parameter, public :: most_components = 3
   integer, parameter, public :: most_pivoted = 40     !< contacts of a complementary path
+  !> Numbers between this and its inverse are squared and multiplied without care.
+  real(wp), parameter, public :: largest_ordinary = 2.0_wp**200
+  !> Friction beyond which mu times the round-off of a displacement is no small number.
+  real(wp), parameter, public :: large_friction = 1.0e7_wp
   !> Local solvers: bi-potential projections, exact, Newton.
   integer, parameter, public :: local_bipot = 1, local_exact = 2, local_newton = 3
   character(8), parameter, public :: local_names(3) = [character(8) :: 'BIPOT', 'EXACT', &
@@ -37,6 +41,7 @@ module cone_types
     !> |natural map with rho = 1| / |q| (Acary, Bremond & Huber 2018)
     real(wp) :: error2018 = zero
     real(wp) :: eta = zero
+    real(wp) :: norm_q = zero      !< |q|, or what of it is round-off [L]
     integer :: sweeps = 0
     integer :: local_iterations = 0
     integer :: active_set_solves = 0        !< direct solves for given statuses

@@ -21,7 +21,7 @@ contains
     real(wp), intent(in) :: w(:, :)
     real(wp), intent(in) :: mu, rho, enough
     integer, intent(in) :: most
-    real(wp), intent(inout) :: r(:), u(:)
+    real(wp), intent(inout), contiguous :: r(:), u(:)
     integer, intent(out) :: status, iterations
     logical :: done
     select case (options%local)
@@ -42,7 +42,7 @@ contains
     real(wp), intent(in) :: w(:, :)
     real(wp), intent(in) :: mu, rho, enough
     integer, intent(in) :: most
-    real(wp), intent(inout) :: r(:), u(:)
+    real(wp), intent(inout), contiguous :: r(:), u(:)
     integer, intent(out) :: status, iterations
     logical, intent(out) :: done
     integer, parameter :: most_halvings = 6
@@ -86,7 +86,7 @@ contains
   !> A last projection, so that r is in the cone.
   pure subroutine project_once(w, mu, rho, r, u, status)
     real(wp), intent(in) :: w(:, :), mu, rho
-    real(wp), intent(inout) :: r(:), u(:)
+    real(wp), intent(inout), contiguous :: r(:), u(:)
     integer, intent(out) :: status
     integer :: iterations
     call solve_local(w, mu, rho, zero, 1, r, u, status, iterations)
