@@ -121,14 +121,24 @@ contains
     else
       call solve_kind(options, w, q_c, mu, w%mean_diagonal(), r_c, work, certificate, status)
     end if
-    ! What would overflow stays below, and meets no certificate.
-    r = scale(r_c, min(f - e, maxexponent(m) - maxval(exponent(r_c))))
-    work%u = scale(work%u, f)
+    if (in_range(maxval(exponent(r_c)) + f - e)) then
+      r = scale(r_c, f - e)
+      work%u = scale(work%u, f)
+    else
+      r = zero
+      work%u = q
+      call fail(status, status_numerical, 'the reactions are beyond the range of numbers', &
+          hint='choose other units')
+    end if
     call certify(m, mu, q, r, work%u, options%tolerance, certificate)
     certificate%met = certificate%met .and. .not. failed(status)
-    if (.not. certificate%met) call fail(status, status_numerical, &
-        'the reactions are beyond the range of numbers', hint='choose other units')
   end subroutine solve_rescaled
+
+  !> Can numbers of that exponent be held, with all their digits and smaller ones beside them?
+  pure logical function in_range(power)
+    integer, intent(in) :: power
+    in_range = power <= maxexponent(zero) .and. power >= minexponent(zero) + digits(zero)
+  end function in_range
 
   !> Reactions that stick with less friction stick with more, and are taken if the law holds
   !> with all of it. Else the solve goes on from them, with as much of mu as can be squared;
