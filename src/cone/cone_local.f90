@@ -45,8 +45,11 @@ contains
     if (d == 1) return
     row(:d) = scale(w(1, :), -exponent(w(1, 1)))
     length = tangent_length(row(:d))
-    may_wedge = mu*length > row(1)
-    if (mu > one) may_wedge = length > row(1)/mu
+    if (mu > one) then
+      may_wedge = length > row(1)/mu
+    else
+      may_wedge = mu*length > row(1)
+    end if
   end function may_wedge
 
   !> r = projection of tau on {|r_t| <= mu r_n}, and which part of the cone it lies on (De Saxce
