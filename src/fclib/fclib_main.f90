@@ -50,7 +50,7 @@ program fclib_main
     call cpu_time(finish)
     write (output_unit, '(a)') &
         '# problem contacts dofs solver sweeps newton cpu error error2018 eta'
-    write (output_unit, '(a,2(1x,i0),1x,a,2(1x,i0),4es11.3)') last_part(input), &
+    write (output_unit, '(a,2(1x,i0),1x,a,2(1x,i0),es11.3,3es12.3e3)') last_part(input), &
         problem%contacts, size(r), trim(options%solver), certificate%sweeps, &
         certificate%newton_steps, finish - start, certificate%error, certificate%error2018, &
         certificate%eta

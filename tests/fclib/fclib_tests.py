@@ -151,6 +151,77 @@ def wedging():
         check(found == warned, "mu %g: %s" % (mu, errors))
 
 
+def law_misses(problem, r, share):
+    """Contacts that miss the law by more than a share of the largest force or displacement, asked
+    without a product with mu, so that it can be of any size."""
+    u = problem.motions(r)
+    size_r, size_q, size_u = (np.linalg.norm(x) for x in (r, problem.q, u))
+    length = share * max(size_q, size_u, problem.m * size_r)
+    pushed, slip = np.linalg.norm(r[:, 1:], axis=1), np.linalg.norm(u[:, 1:], axis=1)
+    loaded = np.linalg.norm(r, axis=1) > length / problem.m
+    limit = (1.0 + share) * r[:, 0]
+    return np.sum(
+        (u[:, 0] < -length)
+        | (r[:, 0] < 0.0)
+        | (pushed / problem.mu > limit)
+        | (loaded & (u[:, 0] > length))
+        | (loaded & (slip > length) & (pushed / problem.mu < 0.999 * r[:, 0]))
+    )
+
+
+def large_friction():
+    """mu up to the largest number there is, one contact and two: the answer obeys the law, or the
+    program ends with exit 1. r = 0 with u_n = -1 and slip is what the natural map alone takes."""
+    rng = np.random.default_rng(8)
+    solved = 0
+    for d in (2, 3):
+        for contacts in (1, 2):
+            n = d * contacts
+            coupled = 0.5 * rng.normal(size=(n, n))
+            mass = np.linalg.inv(np.eye(n) + coupled @ coupled.T)
+            q = np.tile([-1.0] + (d - 1) * [2.0], contacts)
+            for mu in (1e8, 1e12, 1e16, 1e100, 1e300, np.finfo(float).max):
+                name = os.path.join(TMP, "large.hdf5")
+                answer = os.path.join(TMP, "large_solution.hdf5")
+                data = np.eye(n), np.zeros(n), q, np.full(contacts, mu)
+                write(name, "local", "rows", d, mass, *data)
+                code, line, errors = solve(name, "-o", answer)
+                word = "d = %d, %d contacts, mu = %g: " % (d, contacts, mu)
+                check(code in (0, 1), word + errors)
+                check(np.isfinite([float(x) for x in line[7:10]]).all(), word + "errors")
+                if code == 1:
+                    continue
+                solved += 1
+                given = fclib.Problem(name)
+                misses = law_misses(given, fclib.solution(answer, given), 1e-7)
+                check(misses == 0, word + "%d contacts miss the law" % misses)
+    check(solved >= 20, "solved are %d of 24" % solved)
+
+
+def units():
+    """W and q of 1e-200 to 1e200: the errors printed are finite, and the problem is solved where
+    its reactions can be held."""
+    rng = np.random.default_rng(9)
+    data = random_problem(rng, 3, 3)
+    solved = np.linalg.solve(data[0], np.column_stack([data[1], data[2]]))
+    w, q = data[1].T @ solved[:, :-1], data[1].T @ solved[:, -1] + data[3]
+    q[::3] = -np.abs(q[::3])
+    for i in (-200, 0, 200):
+        for j in (-200, 0, 200):
+            name = os.path.join(TMP, "units.hdf5")
+            with h5py.File(name, "w") as file:
+                group = file.create_group("fclib_local")
+                group.create_dataset("spacedim", data=np.array([3], np.int32))
+                vectors = group.create_group("vectors")
+                vectors.create_dataset("mu", data=data[4])
+                vectors.create_dataset("q", data=q * 10.0**j)
+                store(group, "W", w * 10.0**i, "rows")
+            code, line, errors = solve(name)
+            word = "W 1e%d, q 1e%d: " % (i, j)
+            check(code == (0 if abs(i - j) < 300 else 1), word + "exit %d %s" % (code, errors))
+            check(np.isfinite([float(x) for x in line[7:10]]).all(), word + " ".join(line))
+
+
 def damaged():
     """Missing parts, wrong sizes, NaN, a cut file, no HDF5: a message, exit 2 or 3, no file."""
     rng = np.random.default_rng(6)
