@@ -127,25 +127,62 @@ contains
     class(delassus_blocks_t), intent(in) :: this
     real(wp), intent(in), contiguous :: r(:, :)
     real(wp), intent(inout), contiguous :: u(:, :)
-    integer :: a
+    real(wp) :: own(most_components)
+    integer :: a, d
+    d = this%d
     do a = 1, this%contacts
-      call add_row(this, a, r, u(:, a))
+      own(:d) = u(:, a)
+      call add_row(this, a, d, r, own)
+      u(:, a) = own(:d)
     end do
   end subroutine add_product
 
   !> u = u + (W r)_a (d).
-  pure subroutine add_row(this, a, r, u)
+  pure subroutine add_row(this, a, d, r, u)
     class(delassus_blocks_t), intent(in) :: this
-    integer, intent(in) :: a
-    real(wp), intent(in) :: r(:, :)
-    real(wp), intent(inout) :: u(:)
+    integer, intent(in) :: a, d
+    real(wp), intent(in), contiguous :: r(:, :)
+    real(wp), intent(inout) :: u(most_components)
+    integer :: k
+    associate (first => this%first(a), last => this%first(a + 1) - 1)
+      select case (d)
+      case (3)
+        call add_row_3(first, last, this%column, this%block, r, u)
+      case (2)
+        call add_row_2(first, last, this%column, this%block, r, u)
+      case default
+        do k = first, last
+          u(1) = u(1) + this%block(1, 1, k)*r(1, this%column(k))
+        end do
+      end select
+    end associate
+  end subroutine add_row
+
+  !> The same with fixed bounds, in the plane.
+  pure subroutine add_row_2(first, last, column, block, r, u)
+    integer, intent(in) :: first, last, column(*)
+    real(wp), intent(in) :: block(2, 2, *), r(2, *)
+    real(wp), intent(inout) :: u(2)
     integer :: k, j
-    do k = this%first(a), this%first(a + 1) - 1
-      do j = 1, this%d
-        u = u + this%block(:, j, k)*r(j, this%column(k))
+    do k = first, last
+      do j = 1, 2
+        u = u + block(:, j, k)*r(j, column(k))
       end do
     end do
-  end subroutine add_row
+  end subroutine add_row_2
+
+  !> The same in space.
+  pure subroutine add_row_3(first, last, column, block, r, u)
+    integer, intent(in) :: first, last, column(*)
+    real(wp), intent(in) :: block(3, 3, *), r(3, *)
+    real(wp), intent(inout) :: u(3)
+    integer :: k, j
+    do k = first, last
+      do j = 1, 3
+        u = u + block(:, j, k)*r(j, column(k))
+      end do
+    end do
+  end subroutine add_row_3
 
   pure subroutine visit(this, options, a, mu, rho, enough, most, q, r, u, status, iterations)
     class(delassus_blocks_t), intent(in) :: this
@@ -156,10 +193,14 @@ contains
     real(wp), intent(in), contiguous :: q(:, :)
     real(wp), intent(inout), contiguous :: r(:, :), u(:, :)
     integer, intent(out) :: status, iterations
-    u(:, a) = q(:, a)
-    call add_row(this, a, r, u(:, a))
+    real(wp) :: own(most_components)
+    integer :: d
+    d = this%d
+    own(:d) = q(:, a)
+    call add_row(this, a, d, r, own)
     call visit_contact(options, this%block(:, :, this%diagonal(a)), mu, rho, enough, most, &
-        r(:, a), u(:, a), status, iterations)
+        r(:, a), own(:d), status, iterations)
+    u(:, a) = own(:d)
   end subroutine visit
 
   !> W as a dense matrix (d nc, d nc).
