@@ -1,0 +1,52 @@
+"""The rule of version 0.1.0: nodes of the side with the shorter mean edge, one row for a node and
+pair, normals of the reference, the whole gap as offset."""
+
+import numpy as np
+from second_contact import DEPTH, END, edge_row
+
+
+class OldPair:
+    """A pair of sides by the old rule; rows as those of the new rule, all of them exact."""
+
+    def __init__(self, boundary, card, first, second, side_rule):
+        self.boundary, self.card = boundary, card
+        mean = [boundary.length[s.edges].mean() if len(s.edges) else 0.0 for s in (first, second)]
+        swap = side_rule == "B" or side_rule == "AUTO" and mean[1] < mean[0] * (1 - 1e-6)
+        if card.kind == "node_to_surface":
+            swap = False
+        self.own, self.other = (second, first) if swap else (first, second)
+        self.direction = int(swap)
+        self.nodes = np.union1d(first.nodes, second.nodes)
+        self.sides = first, second
+        edges = np.union1d(first.edges, second.edges)
+        self.shortest = boundary.length[edges].min()
+
+    def reach(self, motion):
+        mean = motion[self.nodes].mean(axis=0)
+        far = [np.max(np.hypot(*(motion[s.nodes] - mean).T)) for s in self.sides]
+        return self.shortest / 4 + 2 * sum(far)
+
+    def rows(self, shape, _motion, reach):
+        """Returns a row for each node that has an edge in front of it."""
+        b = self.boundary
+        edges, result = self.other.edges, []
+        for i in self.own.nodes:
+            best = None
+            node_normal = sum(b.normal[e] for e in (b.into[i], b.out[i]) if e >= 0)
+            if b.closed[i]:
+                node_normal = node_normal / np.hypot(*node_normal)
+            for e in edges:
+                if b.closed[i] and node_normal @ b.normal[e] > -0.2:
+                    continue
+                y = shape.x[i] - shape.x[b.edges[e, 0]]
+                span = shape.x[b.edges[e, 1]] - shape.x[b.edges[e, 0]]
+                s = y @ span / (span @ span)
+                g = y @ shape.normal[e]
+                if -END <= s <= 1 + END and -DEPTH * b.length[e] < g <= reach:
+                    if best is None or abs(g) < abs(best[2]) - 1e-12 * b.length[e]:
+                        best = e, s, g
+            if best is not None:
+                row = edge_row(shape, i, *best[:2])
+                row.group, row.mu, row.card = (self, self.direction), self.card.mu, self.card
+                result.append(row)
+        return result
