@@ -72,6 +72,8 @@ def figures(mine):
     first = e[0, 2] if e[0, 2] > 0 else np.max(np.abs(e[:, :4]))
     growth = np.max(e[:, 2] - e[:, 3] - e[0, 2]) / first
     counts = " ".join(f"{name} {n}" for name, n in mine.counts.items() if n)
+    if not np.any(mine.impulse):
+        counts += " NO CONTACT"
     return (f"E-1 {growth:8.1e} overlap {np.max(mine.overlap):7.1e} "
             f"residual {np.max(np.abs(e[:, 8])):7.1e} {counts}")  # fmt: skip
 

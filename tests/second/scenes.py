@@ -147,12 +147,12 @@ def column_of(numbers, i):
     return [k for p, k in numbers.items() if p[0] == i]
 
 
-def block_on_block(number, rnd):
+def block_on_block(number, rnd, quads=None):
     """Non-matching faces meet squarely or obliquely; quads or triangles; any friction."""
     counts = [(3, 2), (5, 3), (4, 4), (2, 5), (3, 4), (6, 4), (2, 3), (4, 5)][number % 8]
     mu = [0.0, 0.3, 0.6, 1.0][number % 4]
     scene = Scene(f"blocks {counts}, mu {mu}", steps=160 + 20 * (number % 4))
-    triangles = number % 3 == 1
+    triangles = number % 3 == 1 and quads is None
     width = 0.8 + 0.4 * rnd.random()
     off = rnd.uniform(-0.2, 0.2)
     scene.body(counts[0], 3, box(off, 1.002, width, 0.9), (rnd.uniform(-2, 2), -3.0),
@@ -190,12 +190,14 @@ def corner_on_edge(number, rnd):
 
 
 def corner_on_corner(number, rnd):
-    """Two blocks meet with their corners, off centre."""
+    """Two blocks meet with their corners, in line or off it."""
     scene = Scene("corner on corner", dt=5e-5, steps=250)
     off = [0.0, 0.05, -0.08][number % 3]
+    turn = pi / 4 + 0.2 * (number % 2)
     half = 0.5 * 2**0.5
-    scene.body(3, 3, box(off - 0.5, half + 0.001 - 0.5, 1, 1, pi / 4), (0.0, -3.0))
-    scene.body(3, 3, box(-0.5, -half - 0.001 - 0.5, 1, 1, pi / 4 + 0.1 * (number % 2)))
+    scene.body(3, 3, box(off - 0.5, half + 0.001 - abs(off) - 0.5, 1, 1, pi / 4), (0.0, [-3.0, -14.0, -3.0][number % 3]))  # fmt: skip
+    scene.body(3, 3, box(-0.5, -half * cos(turn - pi / 4) - 0.001 - 0.5, 1, 1, turn),
+               young=[1000.0, 500.0][number // 2])  # fmt: skip
     scene.contact(1, 2, [0.3, 0.0, 0.6][number % 3])
     return scene
 
@@ -219,9 +221,9 @@ def walls(number, rnd):
     scene = Scene(f"walls, mu {mu}", steps=200)
     scene.body(3, 4, box(0.0, 0.003, 1, 1.2, 0.1 * (number % 3)), (1.0, -2.0),
                triangles=number % 2 == 1)  # fmt: skip
-    scene.wall((0.0, -0.05), (0.0, 1.0), mu)
+    scene.wall((0.0, -0.051 * (number % 3)), (0.0, 1.0), mu)
     if number % 2:
-        scene.wall((1.06, 0.0), (0.06, 0.2 * (number % 3)), 0.2)
+        scene.wall((1.1, 0.0), (0.1, 0.2 * (number % 3)), 0.2)
     scene.gravity(500.0)
     return scene
 
@@ -229,7 +231,7 @@ def walls(number, rnd):
 def stack(number, rnd):
     """Three bodies on each other, the lowest on a wall or held; gravity."""
     mu = [0.0, 0.4, 0.8][number % 3]
-    scene = Scene(f"stack of three, mu {mu}", steps=200)
+    scene = Scene(f"stack of three, mu {mu}", steps=150, theta=0.6)
     counts = [(4, 3, 5), (2, 3, 4), (3, 3, 3), (5, 2, 3)][number % 4]
     base = scene.body(counts[0], 2, box(0, 0, 1.2, 0.8), triangles=number % 2 == 1)
     scene.body(counts[1], 2, box(0.1, 0.8, 1, 0.6))
@@ -280,33 +282,58 @@ def slide(number, rnd):
 
 
 def groove(number, rnd):
-    """A turned block flies into a V groove."""
+    """A turned block flies into a V groove, its corner first or a flank first."""
     scene = Scene("V groove", dt=5e-5, steps=250)
+    slope, half = 1.2, 0.3 * 2**0.5
 
     def bed(a, b):
-        depth = 0.5 - abs(a - 0.5)
-        return 3 * a - 1.5, (1.5 - 1.6 * depth * 1.5) * b - 1.5 * (1 - b)
+        x = 3 * a - 1.5
+        return x, (slope * abs(x)) * b - 1.5 * (1 - b)
 
     off = [0.0, 0.06, -0.1][number % 3]
-    top = 1.5 - 1.6 * 0.5 * 1.5
-    scene.body(3, 3, box(off - 0.3, top + 0.02 - 0.3 + 0.3 * 2**0.5 + abs(off) * 1.6, 0.6, 0.6,
-                         pi / 4), (0.0, -4.0))  # fmt: skip
+    turn = pi / 4 + [0.0, 0.1, 0.0][number % 3]
+    # The half diagonal stands in the groove of unequal slope: a corner at each side touches.
+    height = half * max(1.0, slope) + slope * abs(off) + 0.003
+    scene.body(3, 3, box(off - 0.3, height - 0.3, 0.6, 0.6, turn), (0.0, -4.0))
     base = scene.body(6, 3, bed, poisson=0.2)
     scene.hold(row_of(base, 0))
     scene.contact(1, 2, [0.0, 0.2, 0.5][number % 3])
     return scene
 
 
+def crowd(number, rnd):
+    """Soft bodies of several shapes that spin freely and meet at large steps."""
+    scene = Scene("crowd", dt=4e-4, steps=200)
+    mu = [0.0, 0.3, 0.6][number % 3]
+    middle = [(-0.66, 0.0), (0.66, 0.1), (0.0, 1.15)]
+    for k, (x, y) in enumerate(middle):
+        angle = rnd.uniform(0, 2 * pi)
+        keep = (lambda i, j: i < 1 or j < 1) if k == number % 3 else None
+        made = scene.body(2 + k, 3 - k // 2, box(x - 0.4, y - 0.4, 0.8, 0.8, angle),
+                          young=40.0 + 40 * k, poisson=0.2, keep=keep,
+                          triangles=k == 1)  # fmt: skip
+        spin = rnd.uniform(-15, 15)
+        vx, vy = -20 * x + rnd.uniform(-3, 3), 20 * (0.4 - y) + rnd.uniform(-3, 3)
+        lines = ""
+        for node in sorted(made.values()):
+            px, py = scene.nodes[node - 1]
+            lines += card(node, vx - spin * (py - y), vy + spin * (px - x))
+        scene.cards.append("*INITIAL_VELOCITY_NODE\n" + lines)
+    scene.contact(1, 2, mu)
+    scene.contact(2, 3, mu)
+    scene.contact(3, 1, mu)
+    return scene
+
+
 def special(number, rnd):
     """Masses, sides, node sets and other cards on two blocks."""
-    scene = block_on_block(number, rnd)
+    scene = block_on_block(number, rnd, quads=number == 1 or None)
     scene.cards.pop()
     mu = 0.3
     if number == 0:
         scene.cards.append("*BIPACT_MASS\n" + card("LUMPED"))
     elif number == 1:
         scene.cards.append("*BIPACT_MASS\n" + card("DISPERSION", 0, 0.5))
-        scene.elements = [e for e in scene.elements if len(e[1]) == 4]
     if number in (2, 3):
         scene.contact(1, 2, mu)
         scene.cards.append("*BIPACT_PAIR\n" + card(1, "A" if number == 2 else "B"))
@@ -332,6 +359,7 @@ def together(number, rnd):
 FAMILIES = (
     (block_on_block, 8), (free_blocks, 5), (corner_on_edge, 6), (corner_on_corner, 3), (into_l, 4),
     (walls, 4), (stack, 4), (pressed, 4), (slide, 4), (groove, 3), (special, 6), (together, 2),
+    (crowd, 8),
 )  # fmt: skip
 COUNT = sum(count for _, count in FAMILIES)
 

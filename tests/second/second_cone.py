@@ -22,8 +22,11 @@ def project(tau_n, tau_t, mu):
 
 
 def misfit(w, q, mu, r):
-    """Returns the relative distance of r from the projection that the law asks for."""
+    """Returns the relative distance of r from the projection that the law asks for.
+
+    Motions of the size of round-off count as none: mu may be a million."""
     u = w @ r + q
+    u[np.abs(u) <= 4e-15 * np.max(np.abs(q))] = 0.0
     scale = np.mean(np.diag(w))
     n, t = project(r[0::2] - (u[0::2] + mu * np.abs(u[1::2])) / scale, r[1::2] - u[1::2] / scale, mu)
     miss = np.hypot(np.linalg.norm(n - r[0::2]), np.linalg.norm(t - r[1::2]))
@@ -182,7 +185,8 @@ def solve(w, q, mu, start):
     scale = np.mean(np.diag(w))
     if np.all(q[0::2] >= 0):
         return np.zeros(len(q))
-    for first in (start, np.zeros(len(q))):
+    held = by_states(w, q, mu, np.where(q[0::2] < 0, STICK, OPEN))
+    for first in (start, np.zeros(len(q)), held):
         r = follow_states(w, q, mu, first, scale)
         if r is not None:
             return r

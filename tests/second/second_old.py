@@ -39,8 +39,7 @@ class OldPair:
                 if b.closed[i] and node_normal @ b.normal[e] > -0.2:
                     continue
                 y = shape.x[i] - shape.x[b.edges[e, 0]]
-                span = shape.x[b.edges[e, 1]] - shape.x[b.edges[e, 0]]
-                s = y @ span / (span @ span)
+                s = y @ shape.tangent[e] / shape.span[e]
                 g = y @ shape.normal[e]
                 if -END <= s <= 1 + END and -DEPTH * b.length[e] < g <= reach:
                     if best is None or abs(g) < abs(best[2]) - 1e-12 * b.length[e]:
