@@ -20,6 +20,9 @@ from second_run import Failure, Run
 
 TOLERANCE = 1e-8
 NUDGE, APART = 1e-14, 1e-10
+# What the old rule does at re-entrant corners, and where nodes pass corners that nobody watches,
+# is not imitated; it has no card of all bodies.
+OLD_RULE_DIFFERS = (23, 25, 41, *range(52, 62))
 
 
 def table(path, first):
@@ -121,6 +124,9 @@ def main():
     counts = [0, 0, 0]
     with tempfile.TemporaryDirectory() as folder:
         for number in asked.scenes or range(1, scenes.COUNT + 1):
+            if asked.rule == "old" and number in OLD_RULE_DIFFERS:
+                print(f"skip {number:3d} {scenes.make(number).title}")
+                continue
             passed, chaotic, text = judge(number, asked.rule, program, folder)
             counts[0 if passed else 1] += 1
             counts[2] += chaotic
