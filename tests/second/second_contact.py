@@ -210,6 +210,10 @@ class Finder:
         away = shape.x[nodes][:, None, :] - shape.x[vertices][None, :, :]
         near = (np.sum(away**2, axis=2) <= reach**2) & watched[:, None]
         column = {int(e): j for j, e in enumerate(edges)}
+        if len(vertices):
+            first = [column[b.into[k]] for k in vertices]
+            second = [column[b.out[k]] for k in vertices]
+            near |= inside[:, first] & inside[:, second]
         result = []
         for p in np.nonzero(np.any(inside, axis=1) | np.any(near, axis=1))[0]:
             i = nodes[p]
