@@ -46,7 +46,7 @@ class Scene:
                 else:
                     self.elements += [(pid, [ring[0], ring[1], ring[3]]), (pid, ring[1:])]
         self.parts.append((form, material.get("density", 1e-3), material.get("young", 1000.0),
-                           material.get("poisson", 0.3), material.get("thickness", 1.0)))  # fmt: skip
+                           material.get("poisson", 0.3), material.get("thickness", 1.0)))
         everything = self.node_set(numbers.values())
         if velocity != (0, 0):
             self.cards.append("*INITIAL_VELOCITY\n" + card(everything) + card(*velocity))
@@ -134,7 +134,7 @@ def box(x, y, width, height, angle=0.0, shear=0.0, about=(0.5, 0.5)):
     def place(a, b):
         p = (a - about[0]) * width + shear * (b - about[1]) * height, (b - about[1]) * height
         return (x + about[0] * width + c * p[0] - s * p[1],
-                y + about[1] * height + s * p[0] + c * p[1])  # fmt: skip
+                y + about[1] * height + s * p[0] + c * p[1])
 
     return place
 
@@ -156,7 +156,7 @@ def block_on_block(number, rnd, quads=None):
     width = 0.8 + 0.4 * rnd.random()
     off = rnd.uniform(-0.2, 0.2)
     scene.body(counts[0], 3, box(off, 1.002, width, 0.9), (rnd.uniform(-2, 2), -3.0),
-               triangles=triangles, poisson=[0.0, 0.3][number % 2])  # fmt: skip
+               triangles=triangles, poisson=[0.0, 0.3][number % 2])
     base = scene.body(counts[1], 2, box(-0.1, 0, 1.4, 1), triangles=number % 5 == 2)
     scene.hold(row_of(base, 0))
     scene.contact(*((1, 2) if number % 2 else (2, 1)), mu)
@@ -170,7 +170,7 @@ def free_blocks(number, rnd):
     v = rnd.uniform(1, 4)
     scene.body(3, 3, box(-1.003, rnd.uniform(-0.3, 0.3), 1, 1), (v, rnd.uniform(-1, 1)))
     scene.body(2 + number % 3, 4, box(0, 0, 0.9, 1.1), (-1.0, 0.5),
-               young=[1000.0, 400.0][number % 2], triangles=bool(number % 2))  # fmt: skip
+               young=[1000.0, 400.0][number % 2], triangles=bool(number % 2))
     scene.contact(1, 2, mu)
     return scene
 
@@ -182,7 +182,7 @@ def corner_on_edge(number, rnd):
     scene = Scene(f"corner on edge, {angle * 180 / pi:.0f} degrees, mu {mu}", dt=5e-5, steps=300)
     half = 0.5 * (sin(angle) + cos(angle))
     scene.body(4, 4, box(rnd.uniform(-0.3, 0.3), half + 0.002 - 0.5, 1, 1, angle),
-               (rnd.uniform(-1, 1), -4.0))  # fmt: skip
+               (rnd.uniform(-1, 1), -4.0))
     base = scene.body(3 + number % 3, 2, box(-1, -0.8, 3, 0.8), triangles=number % 2 == 1)
     scene.hold(row_of(base, 0))
     scene.contact(1, 2, mu)
@@ -195,9 +195,9 @@ def corner_on_corner(number, rnd):
     off = [0.0, 0.05, -0.08][number % 3]
     turn = pi / 4 + 0.2 * (number % 2)
     half = 0.5 * 2**0.5
-    scene.body(3, 3, box(off - 0.5, half + 0.001 - abs(off) - 0.5, 1, 1, pi / 4), (0.0, [-3.0, -14.0, -3.0][number % 3]))  # fmt: skip
+    scene.body(3, 3, box(off - 0.5, half + 0.001 - abs(off) - 0.5, 1, 1, pi / 4), (0.0, [-3.0, -14.0, -3.0][number % 3]))
     scene.body(3, 3, box(-0.5, -half * cos(turn - pi / 4) - 0.001 - 0.5, 1, 1, turn),
-               young=[1000.0, 500.0][number // 2])  # fmt: skip
+               young=[1000.0, 500.0][number // 2])
     scene.contact(1, 2, [0.3, 0.0, 0.6][number % 3])
     return scene
 
@@ -209,7 +209,7 @@ def into_l(number, rnd):
     scene = Scene(f"block into an L, mu {mu}", dt=5e-5, steps=300)
     scene.body(n, 3, box(0.505, 0.506 + 0.1 * (number % 2), 0.8, 0.8), (-3.0, -3.0 + number % 3))
     base = scene.body(4, 4, box(0, 0, 2, 2), keep=lambda i, j: i < 1 or j < 1,
-                      poisson=0.2)  # fmt: skip
+                      poisson=0.2)
     scene.hold([k for p, k in base.items() if p[1] == 0 or p[0] == 0])
     scene.contact(*((1, 2) if number % 2 else (2, 1)), mu)
     return scene
@@ -220,7 +220,7 @@ def walls(number, rnd):
     mu = [0.0, 0.3, 1.0, 0.5][number % 4]
     scene = Scene(f"walls, mu {mu}", steps=200)
     scene.body(3, 4, box(0.0, 0.003, 1, 1.2, 0.1 * (number % 3)), (1.0, -2.0),
-               triangles=number % 2 == 1)  # fmt: skip
+               triangles=number % 2 == 1)
     scene.wall((0.0, -0.051 * (number % 3)), (0.0, 1.0), mu)
     if number % 2:
         scene.wall((1.1, 0.0), (0.1, 0.2 * (number % 3)), 0.2)
@@ -250,7 +250,7 @@ def pressed(number, rnd):
     """A block is pressed down by a load that grows, with weight and a side load."""
     mu = [0.0, 0.5, 1.0, 0.3][number % 4]
     scene = Scene(f"pressed block, mu {mu}", dt=2e-4, steps=150, theta=[0.5, 0.7, 1.0][number % 3],
-                  xi=[None, 0.6][number % 2])  # fmt: skip
+                  xi=[None, 0.6][number % 2])
     top = scene.body([3, 5, 4][number % 3], 3, box(0, 1.0, 1, 1), form=12 + number % 2)
     base = scene.body([4, 3, 6][number % 3], 2, box(-0.2, 0, 1.5, 1), form=12 + number % 2)
     scene.hold(row_of(base, 0))
@@ -311,7 +311,7 @@ def crowd(number, rnd):
         keep = (lambda i, j: i < 1 or j < 1) if k == number % 3 else None
         made = scene.body(2 + k, 3 - k // 2, box(x - 0.4, y - 0.4, 0.8, 0.8, angle),
                           young=40.0 + 40 * k, poisson=0.2, keep=keep,
-                          triangles=k == 1)  # fmt: skip
+                          triangles=k == 1)
         spin = rnd.uniform(-15, 15)
         vx, vy = -20 * x + rnd.uniform(-3, 3), 20 * (0.4 - y) + rnd.uniform(-3, 3)
         lines = ""
@@ -356,11 +356,77 @@ def together(number, rnd):
     return scene
 
 
+def options(number, rnd):
+    """Two blocks with cards that only the new rule takes, or with node sets as sides."""
+    scene = block_on_block([1, 4, 6, 2][number], rnd)
+    scene.cards.pop()
+    if number == 3:
+        # Sets 1 and 2 hold all nodes of the two bodies.
+        scene.contact(-1, -2, 0.3)
+        return scene
+    scene.contact(2, 1, 0.3)
+    if number < 2:
+        scene.cards.append("*BIPACT_PAIR\n" + card(1, "BOTH"))
+    else:
+        scene.cards.append("*BIPACT_CONTACT\n" + card("", 1e-12) + card("", "REF"))
+    return scene
+
+
+def folding(number, rnd):
+    """The legs of a U are driven onto each other: contact of a body with itself."""
+    scene = Scene("U that closes", dt=1e-4, steps=200)
+    cells = 7 + 2 * number
+    gap = range(cells // 2, cells // 2 + 1)
+    made = scene.body(cells, 5, box(0, 0, 0.2 * cells, 1.6), young=200.0, poisson=0.2,
+                      keep=lambda i, j: j < 1 or i not in gap)
+    lines = ""
+    for p, node in sorted(made.items()):
+        if p[1] > 2:
+            lines += card(node, (12.0 if p[0] <= cells // 2 else -15.0) * (p[1] - 2), 0.0)
+    scene.cards.append("*INITIAL_VELOCITY_NODE\n" + lines)
+    scene.hold(row_of(made, 0))
+    scene.contact(0, None, [0.0, 0.4][number], "SINGLE_SURFACE")
+    return scene
+
+
+def tables(number, rnd):
+    """A block slides from one table to another: flush, over a low step, down, off the edge."""
+    ledge = [0.0, 5e-5, -0.01, -2.0][number]
+    scene = Scene(f"tables, ledge {ledge}", dt=1e-3, steps=250)
+    scene.body(4, 2, box(-0.7, 0.0, 0.6, 0.4), (1.5, 0.0), triangles=number == 1)
+    one = scene.body(2, 1, box(-1.0, -0.5, 1, 0.5))
+    two = scene.body(2, 1, box(0.003, -0.5 + ledge, 1, 0.5))
+    scene.hold([*one.values(), *two.values()])
+    mu = [0.0, 0.0, 0.1, 0.2][number]
+    scene.contact(1, 2, mu)
+    scene.contact(1, 3, mu)
+    if number:
+        scene.gravity(3.0)
+    return scene
+
+
+def wedge(number, rnd):
+    """A wedge is driven between two free blocks, its tip blunt or sharp."""
+    scene = Scene("wedge", dt=1e-4, steps=200)
+    tip = [0.1, 0.02, 0.2][number]
+
+    def shape(a, b):
+        return (a - 0.5) * (tip + 0.6 * b), 0.605 + b
+
+    scene.body(2, 4, shape, (0.0, -3.0), density=5e-3)
+    for k, x in enumerate((-1.002 - tip / 2 - 0.02 * number, tip / 2 + 0.002)):
+        scene.body(3, 3 + k, box(x, 0, 1, 0.6 - 0.05 * k), (0.0, 1.0), triangles=k == number)
+    mu = [0.0, 0.3, 0.1][number]
+    scene.contact(1, 2, mu)
+    scene.contact(3, 1, mu)
+    return scene
+
+
 FAMILIES = (
     (block_on_block, 8), (free_blocks, 5), (corner_on_edge, 6), (corner_on_corner, 3), (into_l, 4),
     (walls, 4), (stack, 4), (pressed, 4), (slide, 4), (groove, 3), (special, 6), (together, 2),
-    (crowd, 8),
-)  # fmt: skip
+    (crowd, 8), (options, 4), (folding, 2), (tables, 4), (wedge, 3),
+)
 COUNT = sum(count for _, count in FAMILIES)
 
 
@@ -383,7 +449,7 @@ def main():
         scene = make(number)
         span = np.ptp(np.array(scene.nodes), axis=0)
         print(f"{number:3d} {len(scene.nodes):4d} nodes {scene.steps:4d} steps "
-              f"{span[0]:5.2f} x {span[1]:5.2f}  {scene.title}")  # fmt: skip
+              f"{span[0]:5.2f} x {span[1]:5.2f}  {scene.title}")
 
 
 if __name__ == "__main__":

@@ -101,7 +101,7 @@ class Side:
             [k for k in self.nodes
              if boundary.closed[k] and boundary.into[k] in mine and boundary.out[k] in mine],
             dtype=int,
-        )  # fmt: skip
+        )
 
 
 class Row:

@@ -66,7 +66,7 @@ class Reader:
             frame="START", pentol=1e-9, nodes={}, elements=[], parts={}, sections={},
             materials={}, node_sets={}, part_sets={}, curves={}, fixed=[], velocities=[],
             forces=[], gravity=[], contacts=[], walls=[], sides={},
-        )  # fmt: skip
+        )
         self.counts = defaultdict(int)
         for keyword, cards in blocks(path):
             self.read(keyword, cards)
@@ -86,7 +86,7 @@ class Reader:
         else:
             self.title = None
         aliases = {"SET_NODE": "SET_NODE_LIST", "SET_PART": "SET_PART_LIST",
-                   "MAT_001": "MAT_ELASTIC", "LOAD_NODE": "LOAD_NODE_POINT"}  # fmt: skip
+                   "MAT_001": "MAT_ELASTIC", "LOAD_NODE": "LOAD_NODE_POINT"}
         name = "read_" + aliases.get(keyword, keyword).lower()
         if name.startswith("read_contact_2d_automatic_"):
             self.read_contact(name[len("read_contact_2d_automatic_") :], cards)
@@ -244,7 +244,7 @@ class Reader:
                 id=self.counts["wall"], nodes=whole(f[0]), mu=1e6 if friction == 1 else friction,
                 t=(number(g[0]), number(g[1])), h=(number(g[3]), number(g[4])),
             )
-        )  # fmt: skip
+        )
 
 
 def read_deck(path):

@@ -228,7 +228,7 @@ class Run:
             late = [
                 row for row in known
                 if id(row) not in held and row.gap + row.normal @ row.relative_motion(du) < -row.delta
-            ]  # fmt: skip
+            ]
             self.counts["late"] += len(late)
             changed = bool(late)
             active += late
@@ -250,7 +250,7 @@ class Run:
                 row for row in known
                 if row.group == new.group and row.node == new.node
                 and row.normal @ new.normal > APART
-            ]  # fmt: skip
+            ]
             start = new.normal @ new.relative(x0)
             if fit:
                 row = max(fit, key=lambda row: row.normal @ new.normal)
@@ -305,7 +305,7 @@ class Run:
         result.energy.append(
             [kinetic, internal, total, s["external"], s["friction"], s["contact"],
              s["unsolved"], s["algorithmic"], balance / (self.largest or 1.0)]
-        )  # fmt: skip
+        )
         result.impulse.append([self.impulse[card].copy() for card in self.cards])
         result.u.append(self.u.copy())
         kinds = [sum(1 for row in active if row.exact), sum(1 for row in active if not row.exact)]

@@ -164,7 +164,7 @@ def turned(angle, swap):
 
     v = (1.0, -3.0)
     scene.body(3, 3, turn(box(0.1, 1.001, 0.9, 0.9, 0.05, about=(0, 0))),
-               (c * v[0] - s * v[1], s * v[0] + c * v[1]))  # fmt: skip
+               (c * v[0] - s * v[1], s * v[0] + c * v[1]))
     scene.body(4, 2, turn(box(0, 0, 1.5, 1)))
     scene.contact(*((2, 1) if swap else (1, 2)), 0.3)
     u = run(scene)[1].u
