@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import scenes
+import second_contact
 from second_run import Failure, Run
 
 TOLERANCE = 1e-8
@@ -121,9 +122,12 @@ def judge(number, rule, program, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rule", choices=("old", "new"), default="new")
+    parser.add_argument("--beside", type=float, help="limit of rows beside a corner, such as 0.1")
     parser.add_argument("--self", action="store_true", help="without bipact")
     parser.add_argument("scenes", nargs="*", type=int)
     asked = parser.parse_args()
+    if asked.beside is not None:
+        second_contact.BESIDE = asked.beside
     program = None if asked.self else os.environ.get("BIPACT", "bin/bipact")
     counts = [0, 0, 0]
     with tempfile.TemporaryDirectory() as folder:

@@ -19,6 +19,9 @@ EMPTY = 10 * DEGREE
 TWIN = 0.1
 ALLOWANCE, ALLOWANCE_CORNER = 1e-3, 2e-4
 TIE = 1e-6
+# A node beside a convex corner, by more than this part of the shorter edge before and after the
+# free motion, has no row with it; infinite: the rule has no such limit, and the reach decides.
+BESIDE = np.inf
 
 
 def cross(a, b):
@@ -269,7 +272,7 @@ class Finder:
                 else:
                     del listed[first if g[0] < g[1] else second]
         elif not any(strip):
-            if good:
+            if good and not self.passes_beside(shape, i, k, motion, length, n):
                 extra.append(vertex_row(shape, i, k, n))
         else:
             e = first if strip[0] else second
@@ -279,6 +282,18 @@ class Finder:
             if e in listed and near_end and good and width >= NARROW:
                 del listed[e]
                 extra.append(vertex_row(shape, i, k, n))
+
+    def passes_beside(self, shape, i, k, motion, length, n):
+        """Tells whether node i stays clear of corner k along a flank that its row leaves out."""
+        size = BESIDE * min(length, self.size(shape, i, n))
+        y, f = shape.x[i] - shape.x[k], motion[i] - motion[k]
+        for end in (-1, 1):
+            angle = shape.middle[k] + end * shape.half[k]
+            flank = direction(angle)
+            own = abs(wrap(angle - shape.middle[i] - np.pi)) <= shape.half[i] + 1e-9
+            if not own and min(flank @ y, flank @ (y + f)) > size:
+                return True
+        return False
 
     def merged(self, shape, rows):
         """Keeps one row of those whose normals are close (step 3)."""

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import scenes
+import second_contact
 from scenes import Scene, box, row_of
+from second_contact import Pair
 from second_run import Run
 
 results = {"passed": 0, "failed": 0}
@@ -210,6 +212,19 @@ def crowds():
     check("crowd, FRAME REF without the purse: energy", bare, 1.5, least=True)
 
 
+def reach():
+    """Rows of nodes beside a corner depend on the reach; with a limit on them nothing does."""
+    plain = Pair.reach
+    for limit, name in ((second_contact.BESIDE, "as written"), (0.1, "limited")):
+        kept, second_contact.BESIDE = second_contact.BESIDE, limit
+        one = run(scenes.make(1))[1].u
+        Pair.reach = lambda self, motion: 2 * plain(self, motion)
+        two = run(scenes.make(1))[1].u
+        Pair.reach, second_contact.BESIDE = plain, kept
+        change = np.max(np.abs(one - two)) / np.max(np.abs(one))
+        check(f"reach doubled, rows beside a corner {name}", change, 1e-9 if limit < 1 else 2e-2)
+
+
 def main():
     slab()
     for order in ((1, 2), (2, 1)):
@@ -226,6 +241,7 @@ def main():
     invariance()
     purse()
     crowds()
+    reach()
     print(f"{results['passed']} passed, {results['failed']} failed")
     return 1 if results["failed"] else 0
 
