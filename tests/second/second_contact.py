@@ -21,7 +21,7 @@ ALLOWANCE, ALLOWANCE_CORNER = 1e-3, 2e-4
 TIE = 1e-6
 # A node beside a convex corner, by more than this part of the shorter edge before and after the
 # free motion, has no row with it; infinite: the rule has no such limit, and the reach decides.
-BESIDE = np.inf
+BESIDE = 0.1
 
 
 def cross(a, b):
