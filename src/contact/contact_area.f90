@@ -85,6 +85,7 @@ contains
     integer :: e, k, n
     whole = zero
     do e = 1, size(own%length)
+      if (.not. own%is_listed(e)) cycle
       if (.not. any(is_near(own%index(own%end_node(:, e))))) cycle
       thickness = thickness_of(model, own%part(e))
       n = 0
@@ -126,6 +127,7 @@ contains
       d = difference(x, u, b, a)
       length = sqrt(sum(d**2))
       do f = 1, size(other%length)
+        if (.not. other%is_listed(f)) cycle
         do k = 1, 2
           d = difference(x, u, other%end_node(k, f), a)
           s(k) = (-normal(2)*d(1) + normal(1)*d(2))/length

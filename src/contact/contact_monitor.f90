@@ -115,15 +115,18 @@ contains
     integer, intent(in) :: p, cycle
     real(wp), intent(in), contiguous :: u(:, :)
     type(status_t), intent(inout) :: status
+    character(:), allocatable :: hint
     real(wp) :: accepted
     associate (pairing => contact%pairing(p)%item)
       pairing%overlap = overlap_t()
       call pairing%measure_whole(model, u, pairing%overlap, accepted)
       if (pairing%overlap%depth > accepted) then
         if (cycle == 0) then
+          hint = 'open the gap'
+          if (pairing%is_wall) hint = 'move the wall, or name the nodes in front of it (NSID)'
           call fail(status, status_deck, 'initial penetration: '//place_of(model, pairing)// &
-              ' at the start', hint='open the gap; PENTOL of *BIPACT_CONTACT accepts more'// &
-              ' as a touch (it is a share of the edge)')
+              ' at the start', hint=hint//'; a larger PENTOL on *BIPACT_CONTACT (a share of '// &
+              'the edge) takes it for a touch')
         else
           call fail(status, status_numerical, place_of(model, pairing)// &
               ': the contact is born overlapped', hint='the bodies must be apart at TBIRTH')

@@ -53,7 +53,7 @@ contains
     integer :: k, n, m, edge
     old = near
     allocate (found(size(obstacle%length)), nothing(size(obstacle%length)))
-    nothing = .false.
+    nothing = .not. obstacle%is_listed
     call start_list(size(own%node), near)
     distance = huge(one)
     turned = .false.
@@ -61,7 +61,7 @@ contains
       p = x(:, own%node(k)) + u(:, own%node(k))
       n = 0
       call edges_near(tree, p, reach, found, n)
-      if (size(leaves_out) > 0) call drop_left_out(own, obstacle, k, leaves_out, found, n)
+      call drop_left_out(own, obstacle, k, leaves_out, found, n)
       m = n
       if (n > 0) call cone_of_node(own, k, x, u, .false., cone)
       call keep_facing(own, obstacle, k, x, u, cone, may_share, found, n, turned)
@@ -107,7 +107,8 @@ contains
     near%first(near%n + 1) = start + size(edges)
   end subroutine add_node
 
-  !> Drops the edges of parts that the part of a node does not touch.
+  !> Drops the edges that do not belong to the obstacle, and those of parts that the part of a node
+  !> does not touch.
   pure subroutine drop_left_out(own, obstacle, k, leaves_out, found, n)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k
@@ -117,7 +118,10 @@ contains
     edge = maxval(own%node_edge(:, k))
     m = 0
     do i = 1, n
-      if (leaves_out(own%part(edge), obstacle%part(found(i)))) cycle
+      if (.not. obstacle%is_listed(found(i))) cycle
+      if (size(leaves_out) > 0 .and. edge > 0) then
+        if (leaves_out(own%part(edge), obstacle%part(found(i)))) cycle
+      end if
       m = m + 1
       found(m) = found(i)
     end do

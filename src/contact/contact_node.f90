@@ -7,7 +7,8 @@ module contact_node
   use contact_features, only: gap_to_place, smooth_angle
   use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
-  use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, deepest_crossing
+  use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, deepest_inner_point, &
+      deepest_crossing
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
   use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
@@ -167,7 +168,9 @@ contains
     real(wp) :: d(2), along(2), height(2)
     integer :: e, f, s
     do e = 1, size(surface%length)
+      if (.not. surface%is_listed(e)) cycle
       do f = 1, size(other%length)
+        if (.not. other%is_listed(f)) cycle
         if (dot_product(surface%normal(:, e), other%normal(:, f)) > -0.05_wp) cycle
         do s = 1, 2
           d = model%x(:, other%end_node(s, f)) - model%x(:, surface%end_node(1, e))
@@ -499,6 +502,8 @@ contains
       if (this%side(t)%is_closed) then
         call deepest_node(this%side(s), this%side(t), this%tree(t), model%x, u, this%is_self, &
             this%leaves_out, overlap, found)
+        if (.not. found) call deepest_inner_point(this%side(s), this%side(t), this%tree(t), &
+            model%x, u, this%is_self, this%leaves_out, overlap)
       else if (.not. this%is_born) then
         call deepest_before_open(this, model, s, t, u, overlap)
       end if

@@ -2,7 +2,7 @@
 !> True overlap of bodies, from their boundaries alone: it asks neither rows nor normals nor which
 !> nodes are exact.
 module contact_overlap
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   use contact_features, only: difference, frame_t, edge_frame, local_coordinate, &
       gap_to_edge, end_tolerance, cone_of_node_t, cone_of_node, faces, facing_angle
   use contact_near, only: near_t, is_away, is_in_front, is_behind
@@ -12,7 +12,8 @@ module contact_overlap
   use contact_tree, only: tree_t, edges_in_box, edges_near, distance_to_edges, winding_number
   implicit none
   private
-  public :: true_gap, confirm_inside, update_front, deepest_node, deepest_crossing, open_gap
+  public :: true_gap, confirm_inside, update_front, deepest_node, deepest_inner_point, &
+      deepest_crossing, open_gap
 
   !> Before an open obstacle a node this share of an edge deep is no longer behind it.
   real(wp), parameter :: deepest = 0.3_wp
@@ -202,13 +203,42 @@ contains
         cycle
       end if
       if (winding_number(tree, p, left_out) <= 0) cycle
-      found = .true.
       call distance_to_edges(tree, p, left_out, huge(one), distance, edge)
       if (edge == 0) cycle
+      found = found .or. distance > end_tolerance*obstacle%length(edge)
       call note_overlap(overlap, distance, shorter_edge(own, k, obstacle%length(edge)), &
           own%node(k), obstacle%part_id(edge), .false.)
     end do
   end subroutine deepest_node
+
+  !> Bodies whose sides lie on one line may overlap though no node is inside and no edges cross
+  !> properly: points just inside the middle of every edge of `own` are asked too.
+  subroutine deepest_inner_point(own, obstacle, tree, x, u, is_self, leaves_out, overlap)
+    type(surface_t), intent(in) :: own, obstacle
+    type(tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    logical, intent(in) :: is_self, leaves_out(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp), parameter :: inward = 1.0e-3_wp
+    logical :: left_out(size(obstacle%length))
+    real(wp) :: a(2), d(2), p(2), distance
+    integer :: e, edge
+    if (tree%n == 0) return
+    left_out = .false.
+    do e = 1, size(own%length)
+      if (.not. own%is_listed(e)) cycle
+      a = x(:, own%end_node(1, e)) + u(:, own%end_node(1, e))
+      d = difference(x, u, own%end_node(2, e), own%end_node(1, e))
+      p = a + half*d + inward*[-d(2), d(1)]
+      if (any(p < tree%low(:, 1) .or. p > tree%high(:, 1))) cycle
+      if (is_self) call leave_out(own, e, leaves_out, left_out)
+      if (winding_number(tree, p, left_out) <= 0) cycle
+      call distance_to_edges(tree, p, left_out, huge(one), distance, edge)
+      distance = distance + inward*sqrt(sum(d**2))
+      if (edge > 0) call note_overlap(overlap, distance, min(own%length(e), &
+          obstacle%length(edge)), own%end_node(1, e), obstacle%part_id(edge), .false.)
+    end do
+  end subroutine deepest_inner_point
 
   !> Edges of the body of an edge, and of parts that its part does not touch.
   pure subroutine leave_out(surface, own_edge, leaves_out, left_out)

@@ -253,6 +253,7 @@ contains
     integer :: e
     largest_turn = zero
     do e = 1, size(surface%length)
+      if (.not. surface%is_listed(e)) cycle
       associate (a => surface%end_node(1, e), b => surface%end_node(2, e))
         d = (u(:, b) - reference(:, surface%index(b))) - (u(:, a) - reference(:, surface%index(a)))
         largest_turn = max(largest_turn, sqrt(d(1)**2 + d(2)**2)/surface%length(e))

@@ -125,6 +125,7 @@ contains
     class(pairing_t), intent(inout) :: pairing
     associate (s => pairing%side(2))
       allocate (s%node(0), s%end_node(2, 0), s%length(0), s%normal(2, 0), s%chain(2, 0))
+      allocate (s%is_listed(0))
       allocate (s%index(size(pairing%side(1)%index)))
       s%index = 0
     end associate

@@ -14,6 +14,9 @@ module contact_surface
     integer, allocatable :: node(:)        !< nodes of the surface, increasing
     integer, allocatable :: index(:)       !< (nodes of the model) row in node, 0 = not in it
     integer, allocatable :: end_node(:, :) !< (2, edges) first and second node of each edge
+    !> (edges) it belongs to the surface; beyond the ends of a set stand the next edges of the
+    !> boundary, which make corners there but no rows
+    logical, allocatable :: is_listed(:)
     real(wp), allocatable :: length(:)     !< [L] reference length
     real(wp), allocatable :: normal(:, :)  !< (2, edges) outward, reference geometry
     !> (2, edges) edge before and after, 0 = end of the surface
@@ -46,7 +49,7 @@ contains
     integer, intent(in), optional :: parts(:)
     logical, allocatable :: part_in(:), node_in(:)
     integer, allocatable :: boundary(:, :), part(:), edge(:, :)
-    logical, allocatable :: is_listed(:)
+    logical, allocatable :: is_listed(:), taken(:)
     integer :: k
     allocate (part_in(size(model%part)), node_in(model%nodes))
     part_in = all(kind /= [side_part_set, side_part, side_parts])
@@ -63,13 +66,18 @@ contains
     case (side_segment_set)
       is_listed = in_segments(model%nodes, boundary, model%segment_set(row)%node)
     end select
-    edge = pack_columns(boundary, is_listed)
-    surface%part = pack(part, is_listed)
-    surface%part_id = model%part(surface%part)%id
     node_in = .false.
-    do k = 1, size(edge, 2)
-      node_in(edge(:, k)) = .true.
+    do k = 1, size(boundary, 2)
+      if (is_listed(k)) node_in(boundary(:, k)) = .true.
     end do
+    taken = is_listed
+    do k = 1, size(boundary, 2)
+      if (any(node_in(boundary(:, k)))) taken(k) = .true.
+    end do
+    surface%is_listed = pack(is_listed, taken)
+    edge = pack_columns(boundary, taken)
+    surface%part = pack(part, taken)
+    surface%part_id = model%part(surface%part)%id
     if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.
     if (kind == side_all_nodes) node_in = .true.
     surface%node = pack([(k, k=1, model%nodes)], node_in)
@@ -164,11 +172,13 @@ contains
     end do
     surface%neighbour(1, :) = ends(surface%end_node(1, :))
     surface%neighbour(2, :) = starts(surface%end_node(2, :))
-    surface%is_closed = n > 0 .and. all(surface%neighbour > 0)
+    surface%is_closed = n > 0 .and. all(surface%is_listed) .and. all(surface%neighbour > 0)
     surface%node_edge(1, :) = ends(surface%node)
     surface%node_edge(2, :) = starts(surface%node)
-    if (n > 0) surface%mean_length = sum(surface%length)/real(n, wp)
-    if (n > 0) surface%shortest = minval(surface%length)
+    if (.not. any(surface%is_listed)) return
+    surface%mean_length = sum(surface%length, mask=surface%is_listed) &
+        /real(count(surface%is_listed), wp)
+    surface%shortest = minval(surface%length, mask=surface%is_listed)
   end subroutine measure_edges
 
   !> Neighbours of the nodes along the whole boundary, and the turn there.

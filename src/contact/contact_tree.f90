@@ -10,6 +10,7 @@ module contact_tree
 
   integer, parameter :: leaf_size = 4
   integer, parameter :: most_levels = 64
+  real(wp), parameter :: farthest = 1.0e150_wp    !< its square is a number
 
   type, public :: tree_t
     integer :: n = 0                          !< boxes
@@ -164,7 +165,7 @@ contains
     integer, intent(out) :: edge
     integer :: stack(2*most_levels), top, k, i
     real(wp) :: best, d
-    best = limit**2
+    best = min(limit, farthest)**2
     edge = 0
     top = min(1, tree%n)
     stack(1) = 1

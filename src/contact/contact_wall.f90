@@ -78,6 +78,7 @@ contains
     logical, intent(inout) :: taken(:)
     integer :: e
     do e = 1, size(this%side(1)%length)
+      if (.not. this%side(1)%is_listed(e)) cycle
       if (dot_product(this%side(1)%normal(:, e), this%normal) < -half) &
           taken(this%side(1)%end_node(:, e)) = .true.
     end do

@@ -133,7 +133,8 @@ contains
       if (contact%pairing(p)%item%is_wall) cycle
       associate (c => contact%pairing(p)%item%nodal)
         do k = 1, size(c%node)
-          if (c%gap(k) >= no_gap .and. .not. any(abs(c%before(:, k)) > zero)) cycle
+          if (c%gap(k) >= no_gap .and. .not. any(abs(c%before(:, k)) > zero) .and. &
+              .not. any(abs(c%force(:, k)) > zero)) cycle
           pressure = zero
           if (c%area(k) > zero) pressure = c%normal(k)/c%area(k)
           call begin_row(file, status)

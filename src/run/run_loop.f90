@@ -376,7 +376,9 @@ contains
     integer :: element
     call run%timers%enter(phase_search)
     call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
-    element = first_inverted(run%system, run%model%x, run%state%u)
+    element = 0
+    if (size(run%model%contact) > 0) &
+        element = first_inverted(run%system, run%model%x, run%state%u)
     if (element > 0) call fail(status, status_numerical, 'element '// &
         to_text(run%model%element_id(element))//', at node '//to_text(run%model%node_id( &
         run%model%connectivity(1, element)))//', is turned inside out: its boundary is not '// &

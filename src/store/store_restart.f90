@@ -17,7 +17,7 @@ module store_restart
   private
   public :: write_restart_file, read_restart_file
 
-  integer, parameter :: free = 512, format_number = 2, head = 400
+  integer, parameter :: free = 512, format_number = 3, head = 400
   character(*), parameter :: magic = 'bipact restart'
 
 contains
@@ -128,7 +128,8 @@ contains
       call refuse(path, 'it is no restart file of bipact', status)
       return
     end if
-    if (text(head + 1:head + 16) /= checksum_of_text(text(:head)) .or. ios /= 0) then
+    if (text(head + 1:head + 16) /= checksum_of_text(text(:head)) .or. &
+        text(head + 17:) /= '' .or. ios /= 0) then
       call refuse(path, 'its first bytes are damaged', status)
       return
     end if

@@ -347,7 +347,8 @@ BLOCK_FAULTS = [
     ),
     ("undefined side", CONTACT, "        11        19"),
     ("undefined node set side", CONTACT, "       -91        12"),
-    ("a body with itself", CONTACT, "        11        11"),
+    ("two cards on the same parts", "*END", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n" + CONTACT + "\n*END"),
+    ("frame that is not available", "*END", "*BIPACT_CONTACT\n\n                 MID\n*END"),
     ("tied contact", CONTACT + "\n", CONTACT + "\n\n                              1\n"),
     ("friction that decays", CONTACT, CONTACT + " " * 20 + "       0.3       0.1       1.0"),
     ("negative friction", CONTACT, CONTACT + " " * 20 + "      -0.3"),
@@ -363,7 +364,7 @@ BLOCK_FAULTS = [
         "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE_ID\n         1\n" + CONTACT + "\n*END",
     ),
     ("pair of no contact", "*END", "*BIPACT_PAIR\n         5         A\n*END"),
-    ("pair with both sides", "*END", "*BIPACT_PAIR\n         1      BOTH\n*END"),
+    ("pair with no side", "*END", "*BIPACT_PAIR\n         1      NONE\n*END"),
     ("pair twice", "*END", "*BIPACT_PAIR\n         1         A\n         1         B\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
     (
@@ -383,7 +384,12 @@ BLOCK_FAULTS = [
         "*RIGIDWALL_PLANAR\n\n       3.0                           0.0                           2.0\n*END",
     ),
     ("moving wall", "*END", "*RIGIDWALL_PLANAR_MOVING\n\n       3.0\n*END"),
-    ("self contact", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE\n        11\n*END"),
+    ("surface of no part set", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE\n        19\n*END"),
+    (
+        "corner of a body in another",
+        "       5           1.005             0.0",
+        "       5             0.9             0.2",
+    ),
 ]
 
 # name, main deck, other files, options

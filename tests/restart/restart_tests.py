@@ -321,7 +321,7 @@ def refused():
         assert text != head[:400] and len(text) == 400
         return text + fletcher(text) + head[416:] + rest
 
-    cases.append((relabelled(b"format    2", b"format    9"), "its format is 9"))
+    cases.append((relabelled(b"format    3", b"format    9"), "its format is 9"))
     version = re.search(rb"version (\S+)", head).group(1)
     cases.append((relabelled(version, b"0" * len(version)), "of bipact wrote it"))
     cases.append(

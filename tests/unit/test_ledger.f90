@@ -55,7 +55,7 @@ contains
       if (any(run%contact%rows%r(1, :run%contact%rows%n) > zero)) exit
     end do
     k = maxloc(run%contact%rows%r(1, :run%contact%rows%n), dim=1)
-    associate (rows => run%contact%rows, node => run%contact%rows%key(2, k))
+    associate (rows => run%contact%rows, node => run%contact%rows%key(3, k))
       call check_true(rows%r(1, k) > zero .and. rows%gap(k) > zero, deck//' closes its gap')
       call check_close(residual(run, run%ledger), zero, bound, deck//' as it is')
 
