@@ -40,8 +40,7 @@ contains
     if (contact%solves_without_contact < 3) then
       call carry_reactions(contact%rows, contact%next)
       if (contact%spare%n > 0) call carry_reactions(contact%rows, contact%spare)
-      if (any(contact%spare%r(1, :contact%spare%n) > zero)) call take_spare(contact%spare, &
-          contact%spare%r(1, :contact%spare%n) > zero, contact%next)
+      call take_loaded(contact)
     end if
     call use_next(contact)
     if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
@@ -58,34 +57,47 @@ contains
     call find_slots(contact%slot, contact%rows)
   end subroutine use_next
 
-  !> Puts the chosen spare rows into a list, at their places.
-  subroutine take_spare(spare, is_taken, rows)
-    type(rows_t), allocatable, intent(inout) :: spare, rows
-    logical, intent(in) :: is_taken(:)
-    type(rows_t), allocatable :: merged, left
+  !> Spare rows that carried load in the last step are solved for from the start.
+  subroutine take_loaded(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: b
+    if (contact%spare%n == 0) return
+    do b = 1, contact%spare%n
+      contact%spare%is_marked(b) = contact%spare%r(1, b) > zero
+    end do
+    if (.not. any(contact%spare%is_marked(:contact%spare%n))) return
+    call swap_rows(contact%rows, contact%next)     ! the old rows have been carried
+    call take_marked(contact)
+    call swap_rows(contact%rows, contact%next)
+  end subroutine take_loaded
+
+  !> Puts the marked spare rows among the rows, at their places.
+  subroutine take_marked(contact)
+    type(contact_t), intent(inout) :: contact
     integer :: a, b
-    allocate (merged, left)
-    call start_rows(merged, rows%n + count(is_taken))
-    call start_rows(left, spare%n)
+    call start_rows(contact%left)
+    call start_rows(contact%work_rows)
     a = 1
-    do b = 1, spare%n
-      if (.not. is_taken(b)) then
-        call copy_row(spare, b, left)
-        cycle
-      end if
-      do while (a <= rows%n)
-        if (.not. comes_before(rows%key(:, a), spare%key(:, b))) exit
-        call copy_row(rows, a, merged)
-        a = a + 1
+    associate (rows => contact%rows, spare => contact%spare)
+      do b = 1, spare%n
+        if (.not. spare%is_marked(b)) then
+          call copy_row(spare, b, contact%left)
+          cycle
+        end if
+        do while (a <= rows%n)
+          if (.not. comes_before(rows%key(:, a), spare%key(:, b))) exit
+          call copy_row(rows, a, contact%work_rows)
+          a = a + 1
+        end do
+        call copy_row(spare, b, contact%work_rows)
       end do
-      call copy_row(spare, b, merged)
-    end do
-    do a = a, rows%n
-      call copy_row(rows, a, merged)
-    end do
-    call swap_rows(rows, merged)
-    call swap_rows(spare, left)
-  end subroutine take_spare
+      do a = a, rows%n
+        call copy_row(rows, a, contact%work_rows)
+      end do
+    end associate
+    call swap_rows(contact%rows, contact%work_rows)
+    call swap_rows(contact%spare, contact%left)
+  end subroutine take_marked
 
   !> After a solve with force (2, m) on the interface: spare rows that are below their allowance
   !> come first; where there is none, nodes that are too deep at the end of the step, and rows
@@ -96,29 +108,29 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), x_free(:, :), force(:, :)
     logical, intent(in) :: acting
     logical, intent(out) :: is_complete
-    logical :: is_below(contact%spare%n)
-    real(wp) :: x(2, size(x_free, 2)), d(2)
-    integer :: b, n
+    real(wp) :: d(2)
+    integer :: b, n, below
     is_complete = .true.
     if (contact%spare%n == 0 .and. .not. acting) return
-    x = x_free
-    if (acting) x = x + reshape(matmul(contact%schur_inverse, reshape(force, [size(force)])), &
-        shape(x))
+    contact%x_end = x_free
+    if (acting) call add_product(size(force), contact%schur_inverse, force, contact%x_end)
+    below = 0
     associate (spare => contact%spare)
       do b = 1, spare%n
-        d = relative_displacement(spare, b, spare%slot, x)
-        is_below(b) = spare%gap(b) + d(1) < -spare%allowance(b)
+        d = relative_displacement(spare, b, spare%slot, contact%x_end)
+        spare%is_marked(b) = spare%gap(b) + d(1) < -spare%allowance(b)
+        if (spare%is_marked(b)) below = below + 1
       end do
     end associate
-    if (any(is_below)) then
+    if (below > 0) then
       is_complete = .false.
-      contact%tally%late_rows = contact%tally%late_rows + count(is_below)
-      call take_spare(contact%spare, is_below, contact%rows)
+      contact%tally%late_rows = contact%tally%late_rows + below
+      call take_marked(contact)
       contact%w_is_current = .false.
       call find_slots(contact%slot, contact%rows)
       if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
     else if (acting) then
-      call place_end(contact, u, x)
+      call place_end(contact, u, contact%x_end)
       call find_late(model, contact, u, n)
       if (n == 0 .or. contact%late_rounds == most_late_rounds) return
       contact%late_rounds = contact%late_rounds + 1
@@ -126,6 +138,17 @@ contains
       call use_late(contact, n)
     end if
   end subroutine add_missing_rows
+
+  !> x = x + A f.
+  pure subroutine add_product(n, a, f, x)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: a(n, n), f(n)
+    real(wp), intent(inout) :: x(n)
+    integer :: j
+    do j = 1, n
+      if (abs(f(j)) > zero) x = x + f(j)*a(:, j)
+    end do
+  end subroutine add_product
 
   !> Displacement of the interface nodes at the end of a step of motion x (2, m).
   pure subroutine place_end(contact, u, x)

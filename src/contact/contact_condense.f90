@@ -41,8 +41,10 @@ contains
     type(contact_t), intent(inout) :: contact
     integer :: dofs
     dofs = 2*size(contact%interface_node)
-    if (allocated(contact%schur_inverse)) deallocate (contact%schur_inverse, contact%column)
+    if (allocated(contact%schur_inverse)) &
+        deallocate (contact%schur_inverse, contact%column, contact%x_end)
     allocate (contact%schur_inverse(dofs, dofs), contact%column(dofs))
+    allocate (contact%x_end(2, dofs/2))
     contact%w_is_current = .false.
   end subroutine size_schur_inverse
 

@@ -15,8 +15,10 @@ module contact_features
   real(wp), parameter, public :: facing_angle = 30.0_wp*degree
   !> A node this share of an edge beyond its end still belongs to it.
   real(wp), parameter, public :: end_tolerance = 1.0e-8_wp
-  !> A normal nearer than this to that of the reference is taken to be it.
-  real(wp), parameter :: same_normal = 1.0e-12_wp
+  !> A normal nearer than this to that of the reference is taken to be it: it would open a gap of
+  !> less than 1e-10 of the slip, which is below what a step accepts (PENTOL), and round-off of
+  !> displacements would otherwise make W anew in every step.
+  real(wp), parameter :: same_normal = 1.0e-10_wp
 
   !> Directions in which the body ends at a node: between two angles about a middle.
   type, public :: cone_of_node_t

@@ -45,6 +45,7 @@ module contact_pairing
     real(wp) :: wanted = zero       !< what closing them wholly last asked for
     real(wp) :: beta = 1.0_wp       !< share of the overlaps that this step closes
     integer :: short_steps = 0      !< steps with beta < 1
+    real(wp) :: given = zero, taken = zero   !< by the solve just done [F L]
   end type purse_t
 
   !> The deepest overlap that was found.

@@ -11,6 +11,7 @@
 !> concave in beta), so that gain(beta) <= beta S(1): one repeat is enough.
 module contact_purse
   use base_kinds, only: wp, zero, one
+  use contact_pairing, only: purse_t
   use contact_types, only: contact_t
   implicit none
   private
@@ -58,35 +59,46 @@ contains
   logical function purse_is_short(contact, largest)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: largest
-    real(wp) :: given(size(contact%pairing)), taken(size(contact%pairing)), work
     integer :: a, p
     purse_is_short = .false.
     if (.not. any(contact%rows%offset(:contact%rows%n) < zero)) return
-    given = zero
-    taken = zero
-    associate (rows => contact%rows)
-      do a = 1, rows%n
-        work = rows%r(1, a)*rows%offset(a)
-        if (work < zero) given(rows%key(1, a)) = given(rows%key(1, a)) - work
-        if (work > zero) taken(rows%key(1, a)) = taken(rows%key(1, a)) + work
-      end do
-    end associate
+    do p = 1, size(contact%pairing)
+      contact%pairing(p)%item%purse%given = zero
+      contact%pairing(p)%item%purse%taken = zero
+    end do
+    do a = 1, contact%rows%n
+      call add_offset_work(contact%rows%r(1, a)*contact%rows%offset(a), &
+          contact%pairing(contact%rows%key(1, a))%item%purse)
+    end do
     do p = 1, size(contact%pairing)
       associate (pairing => contact%pairing(p)%item)
-        if (.not. pairing%is_energy_safe .or. .not. given(p) > zero) cycle
+        if (.not. pairing%is_energy_safe .or. .not. pairing%purse%given > zero) cycle
         associate (purse => pairing%purse)
-          if (given(p) <= purse%balance + taken(p) + round_off*largest) cycle
+          if (purse%given <= purse%balance + purse%taken + round_off*largest) cycle
           purse_is_short = .true.
-          if (purse%beta < one) then
-            purse%beta = zero
-          else
-            purse%wanted = given(p)
-            purse%beta = min(0.99_wp, max(zero, (purse%balance + taken(p))/given(p)))
-            purse%short_steps = purse%short_steps + 1
-          end if
+          call lower_beta(purse)
         end associate
       end associate
     end do
   end function purse_is_short
+
+  pure subroutine add_offset_work(work, purse)
+    real(wp), intent(in) :: work
+    type(purse_t), intent(inout) :: purse
+    purse%given = purse%given + max(zero, -work)
+    purse%taken = purse%taken + max(zero, work)
+  end subroutine add_offset_work
+
+  !> First to what the purse can pay, then to nothing.
+  pure subroutine lower_beta(purse)
+    type(purse_t), intent(inout) :: purse
+    if (purse%beta < one) then
+      purse%beta = zero
+    else
+      purse%wanted = purse%given
+      purse%beta = min(0.99_wp, max(zero, (purse%balance + purse%taken)/purse%given))
+      purse%short_steps = purse%short_steps + 1
+    end if
+  end subroutine lower_beta
 
 end module contact_purse

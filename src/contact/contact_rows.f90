@@ -26,6 +26,7 @@ module contact_rows
     real(wp), allocatable :: mu(:)
     real(wp), allocatable :: length(:)     !< of the edge [L]
     logical, allocatable :: is_rigid(:)    !< both sides constrained: W_nn = 0, only watched
+    logical, allocatable :: is_marked(:)   !< to be moved to another list
     ! Reactions (n, t) of this step and of the two solves before [F], displacement [L], status.
     real(wp), allocatable :: r(:, :), r_previous(:, :), r_older(:, :), u(:, :)
     integer, allocatable :: status(:)
@@ -75,9 +76,10 @@ contains
     call size_integer(rows%slot, 3*n)
     call size_integer(rows%status, n)
     call size_integer(rows%kind, n)
-    if (allocated(rows%is_rigid)) deallocate (rows%is_rigid)
-    allocate (rows%is_rigid(n))
+    if (allocated(rows%is_rigid)) deallocate (rows%is_rigid, rows%is_marked)
+    allocate (rows%is_rigid(n), rows%is_marked(n))
     rows%is_rigid = .false.
+    rows%is_marked = .false.
   end subroutine size_rows
 
   pure subroutine size_reals(a, m, n)
@@ -144,6 +146,7 @@ contains
       rows%mu(a) = mu
       rows%length(a) = length
       rows%is_rigid(a) = .false.
+      rows%is_marked(a) = .false.
       rows%r(:, a) = zero
       rows%r_previous(:, a) = zero
       rows%r_older(:, a) = zero

@@ -30,7 +30,10 @@ contains
     contact%penetration_tolerance = model%controls%penetration_tolerance
     allocate (contact%pairing(n), contact%acts(n))
     contact%acts = .false.
-    allocate (contact%rows, contact%next, contact%spare, contact%before)
+    allocate (contact%rows, contact%spare, contact%before)
+    allocate (contact%next, contact%left, contact%work_rows)
+    call start_rows(contact%left)
+    call start_rows(contact%work_rows)
     call start_rows(contact%rows)
     call start_rows(contact%next)
     call start_rows(contact%spare)

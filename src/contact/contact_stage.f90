@@ -32,7 +32,7 @@ contains
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), x_free(:, :)
     real(wp), intent(in) :: largest
-    real(wp), intent(out) :: force(:, :)
+    real(wp), intent(out), contiguous :: force(:, :)
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
     integer :: round
@@ -61,7 +61,7 @@ contains
     real(wp), intent(in), contiguous :: x_free(:, :)
     real(wp), intent(in) :: largest
     integer, intent(in) :: round
-    real(wp), intent(inout) :: force(:, :)
+    real(wp), intent(inout), contiguous :: force(:, :)
     logical, intent(inout) :: acting
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
@@ -154,7 +154,7 @@ contains
   subroutine find_reactions(model, contact, force, certificate, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(inout) :: force(:, :)
+    real(wp), intent(inout), contiguous :: force(:, :)
     type(certificate_t), intent(out) :: certificate
     type(status_t), intent(inout) :: status
     integer :: k
@@ -191,7 +191,7 @@ contains
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: du(:, :)
-    real(wp), intent(inout) :: force(:, :)
+    real(wp), intent(inout), contiguous :: force(:, :)
     real(wp), intent(out) :: more(:, :)
     logical, intent(out) :: done
     logical, intent(inout) :: acting

@@ -32,7 +32,7 @@ module contact_types
     integer :: listed = 0                         !< nodes that are near, of all that act
     type(rows_t), allocatable :: rows             !< of the step
     type(rows_t), allocatable :: spare            !< rows that hold only below their allowance
-    type(rows_t), allocatable :: next             !< work space: rows being made
+    type(rows_t), allocatable :: next, left, work_rows   !< rows being made
     type(rows_t), allocatable :: before           !< of the step before, where a scheme needs them
     type(late_t), allocatable :: late(:)          !< rows to be added
     integer :: late_rounds = 0                    !< of this step
@@ -44,6 +44,7 @@ module contact_types
     !> (2, nodes) motion of the free step and displacement at the end of the step with contact,
     !> right at interface nodes only [L]
     real(wp), allocatable :: free(:, :), u_end(:, :)
+    real(wp), allocatable :: x_end(:, :)          !< (2, m) motion of the interface [L]
     !> (2m, 2m) S^-1 of the interface, constrained dofs cleared [L/F]
     real(wp), allocatable :: schur_inverse(:, :)
     ! The condensed problem: rows that are not rigid.
