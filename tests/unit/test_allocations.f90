@@ -154,7 +154,7 @@ contains
       before = allocations_so_far()
       lists = lists_made(run)
       call advance(run, status)
-      ! A search, a new interface or new rows of W make lists; a step makes none.
+      ! A search, a new interface, new rows of W, the first solve make lists; a step makes none.
       if (lists_made(run) /= lists) cycle
       quiet = quiet + 1
       allocated = allocated + (allocations_so_far() - before)
@@ -168,7 +168,7 @@ contains
   integer function lists_made(run)
     type(run_t), intent(in) :: run
     associate (c => run%contact%tally)
-      lists_made = c%searches + c%interface_changes + c%w_builds
+      lists_made = c%searches + c%interface_changes + c%w_builds + min(1, c%solves)
     end associate
   end function lists_made
 
