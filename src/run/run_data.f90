@@ -74,6 +74,7 @@ module run_data
     real(wp) :: largest_motion = zero  !< of a node in the step just done [L]
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
+    integer :: checked = 0             !< step of the last check of overlap
     logical :: broken = .false.        !< NaN or infinity: the state is not written
     class(storage_t), allocatable :: storage  !< what can keep fields and restarts
     type(fields_t), allocatable :: fields     !< only with field files

@@ -358,22 +358,28 @@ contains
     if (energies .and. .not. run%broken) call watch(run, status)
     if (run%broken) return
     if (run%plan%fields) call keep_frame(run, last, status)
-    if (last .and. run%plan%contact .and. .not. failed(status)) call check_overlap(run, status)
+    if (last .and. run%plan%contact .and. .not. failed(status)) &
+        call check_overlap(run, last, status)
     if (.not. (run%tables%any_on .and. last)) then
       if (.not. any_due(run%tables, run%state%time, h)) return
     end if
-    if (.not. last .and. run%plan%contact) call check_overlap(run, status)
+    if (.not. last .and. run%plan%contact) call check_overlap(run, last, status)
     call run%timers%enter(phase_output)
     call write_rows(run, last, status)
     call run%timers%enter(phase_other)
   end subroutine tell
 
-  !> True overlap of all bodies in contact, at output times and at the end. It means something while
-  !> elements are not inverted.
-  subroutine check_overlap(run, status)
+  !> True overlap of all bodies in contact: at output times that are not too close, and at the end.
+  !> It means something while elements are not inverted.
+  subroutine check_overlap(run, last, status)
     type(run_t), intent(inout) :: run
+    logical, intent(in) :: last
     type(status_t), intent(inout) :: status
+    !> Steps between two checks: then they cost little beside the steps. Lists cover the rest.
+    integer, parameter :: apart = 50
     integer :: element
+    if (.not. last .and. run%state%cycle < run%checked + apart) return
+    run%checked = run%state%cycle
     call run%timers%enter(phase_search)
     call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
     element = 0

@@ -163,6 +163,7 @@ contains
     run%restart_files = counts(5)
     call archive%exchange('run.largest_motion', run%largest_motion)
     call archive%exchange('run.rotation', run%rotation)
+    call archive%exchange('run.checked', run%checked)
   end subroutine exchange_run
 
   !> Frames so far; on the way back the next file is the one after the last of them.
