@@ -145,26 +145,25 @@ contains
     pairing%moved = moved
   end subroutine bound_motion
 
-  !> Lists anew, for the motion x of the step (2, nodes), the pairings whose lists it has used up
+  !> Lists anew, for the motion x of the step (2, nodes; largest [L] of a node), the pairings whose lists it has used up
   !> before its end: then the step must be solved `again`.
-  subroutine relist_outrun(model, contact, u, x, v, h, cycle, again, new_interface, status)
+  subroutine relist_outrun(model, contact, u, x, largest, v, h, cycle, again, new_interface, &
+      status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), x(:, :), v(:, :)
-    real(wp), intent(in) :: h
+    real(wp), intent(in) :: largest, h
     integer, intent(in) :: cycle
     logical, intent(out) :: again, new_interface
     type(status_t), intent(inout) :: status
-    real(wp) :: moved, largest
+    real(wp) :: moved
     integer :: p
     again = .false.
     new_interface = .false.
-    largest = -one
     do p = 1, size(contact%pairing)
       if (.not. contact%acts(p)) cycle
       associate (pairing => contact%pairing(p)%item)
         if (pairing%safe_distance >= huge(one)) cycle
-        if (largest < zero) largest = largest_motion(size(x, 2), x)
         if (2.0_wp*largest <= pairing%remaining_margin .or. .not. largest < huge(one)) cycle
         call motion_at_end(pairing, u, x, moved)
         if (moved <= pairing%safe_distance) cycle
@@ -177,17 +176,6 @@ contains
     contact%tally%redone = contact%tally%redone + 1
     call use_lists(model, contact, new_interface)
   end subroutine relist_outrun
-
-  pure real(wp) function largest_motion(n, x)
-    integer, intent(in) :: n
-    real(wp), intent(in) :: x(2, n)
-    integer :: i
-    largest_motion = zero
-    do i = 1, n
-      largest_motion = max(largest_motion, x(1, i)**2 + x(2, i)**2)
-    end do
-    largest_motion = sqrt(largest_motion)
-  end function largest_motion
 
   !> The bound of the motion at the end of the step.
   subroutine motion_at_end(pairing, u, x, moved)

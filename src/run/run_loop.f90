@@ -71,8 +71,9 @@ contains
     if (failed(status)) return
     do stage = 1, size(run%scheme%stage)
       call solve_stage(run, stage, t1, acting, status)
+      call check_finite(run, status)
       if (run%plan%contact) call look_back(run, again, status)
-      if (run%plan%contact .and. again) call solve_stage(run, stage, t1, acting, status)
+      if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
       call swap(run%state%du, run%x)
@@ -80,10 +81,20 @@ contains
     run%state%cycle = run%state%cycle + 1
     run%state%time = t1
     run%state%h_last = run%scheme%h
-    call check_finite(run, status)
     call account(run, acting, status)
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance
+
+  !> The stage once more, with longer lists.
+  subroutine solve_again(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(out) :: acting
+    type(status_t), intent(inout) :: status
+    call solve_stage(run, stage, t1, acting, status)
+    call check_finite(run, status)
+  end subroutine solve_again
 
   !> The motion x of a stage, with contact.
   subroutine solve_stage(run, stage, t1, acting, status)
@@ -230,8 +241,8 @@ contains
     type(status_t), intent(inout) :: status
     logical :: new_interface
     call run%timers%enter(phase_search)
-    call relist_outrun(run%model, run%contact, run%state%u, run%x, run%state%v, run%scheme%h, &
-        run%state%cycle, again, new_interface, status)
+    call relist_outrun(run%model, run%contact, run%state%u, run%x, run%largest_motion, &
+        run%state%v, run%scheme%h, run%state%cycle, again, new_interface, status)
     if (new_interface) call factor_matrix(run, .true., status)
   end subroutine look_back
 
@@ -289,12 +300,12 @@ contains
     run%b = run%scheme%load_weight(1)*run%load_0 + run%scheme%load_weight(2)*run%load_1
   end subroutine weigh_loads
 
-  !> The largest motion of a node in the step; NaN or infinity is a failure.
+  !> The largest motion x of a node in the step; NaN or infinity is a failure.
   subroutine check_finite(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     real(wp) :: total, largest
-    call sum_squares(size(run%state%du, 2), run%state%du, total, largest)
+    call sum_squares(size(run%x, 2), run%x, total, largest)
     run%largest_motion = sqrt(largest)
     if (total <= huge(one)) return
     run%broken = .true.
