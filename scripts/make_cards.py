@@ -95,6 +95,10 @@ SCENE = (
             "CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE",
             [{"SURFA": -3, "SURFB": 1, "FS": "&mu"}, {"TBIRTH": 0.03}],
         ),
+        (
+            "CONTACT_2D_AUTOMATIC_SINGLE_SURFACE",
+            [{"SURFA": 0, "FS": "&mu"}, {"TBIRTH": 0.03}],
+        ),
         ("RIGIDWALL_PLANAR", [{"NSID": 3}, {"XT": 2.2, "XH": 1.0, "FRIC": 0.1}]),
         ("BIPACT_PAIR", [{"CID": 1, "SIDE": "AUTO"}]),
         ("DATABASE_HISTORY_NODE", [{"ID1": 101}]),
