@@ -278,10 +278,12 @@ class Finder:
             e = first if strip[0] else second
             distance = (1 - s[0]) * lengths[0] if strip[0] else s[1] * lengths[1]
             size = self.size(shape, i, shape.normal[e])
-            near_end = distance <= self.delta(i, size, b.length[e])
-            if e in listed and near_end and good and width >= NARROW:
-                del listed[e]
-                extra.append(vertex_row(shape, i, k, n))
+            near_end = distance <= self.delta(i, size, length)
+            # A narrow cone keeps the edge if it makes a row: two faces on each other.
+            if near_end and good and (width >= NARROW or e not in listed):
+                if not self.passes_beside(shape, i, k, motion, length, n):
+                    listed.pop(e, None)
+                    extra.append(vertex_row(shape, i, k, n))
 
     def passes_beside(self, shape, i, k, motion, length, n):
         """Tells whether node i stays clear of corner k along a flank that its row leaves out."""
@@ -355,14 +357,14 @@ class Finder:
 
 
 class Pair:
-    """Two sides of a card; `both` is false where only the nodes of SURFA are watched."""
+    """Two sides of a card, each of whose nodes are watched against the other's edges."""
 
-    def __init__(self, boundary, card, first, second, side_rule, both):
+    def __init__(self, boundary, card, first, second, side_rule):
         self.boundary, self.card = boundary, card
         self.sides = first, second
         same = first is second
         self.finders = [Finder(boundary, first, second, same)]
-        if both and not same:
+        if not same:
             self.finders.append(Finder(boundary, second, first, False))
         for finder in self.finders:
             finder.side_rule = side_rule

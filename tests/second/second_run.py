@@ -12,6 +12,7 @@ from second_overlap import overlap
 
 ROUNDS = 3
 CLOSED = 1e-12  # closing of round-off, of the largest term of the ledger, is free
+WORTH_TRYING = 0.1  # a short purse stays shut until it holds this share of what was wanted
 
 
 class Failure(Exception):
@@ -23,7 +24,8 @@ class Card:
 
     def __init__(self, kind, identity, mu):
         self.kind, self.id, self.mu = kind, identity, mu
-        self.purse = 0.0
+        self.purse, self.wanted = 0.0, 0.0
+        self.beta, self.short = 1.0, False
 
 
 def parts_of(deck, identity):
@@ -81,12 +83,14 @@ class Run:
                 for place, p in enumerate(parts):
                     for q in parts[place:]:
                         if frozenset((p, q)) not in named:
-                            self.add_pair(card, [p], [q], rule, True)
+                            self.add_pair(card, [p], [q], rule)
             else:
                 sides = [
                     parts_of(deck, s) if s > 0 else -s for s in (contact.a, contact.b)
                 ]
-                self.add_pair(card, *sides, rule, contact.kind == "surface_to_surface")
+                if contact.kind == "node_to_surface":
+                    rule = "A"  # the nodes of SURFA are exact
+                self.add_pair(card, *sides, rule)
         for wall in deck.walls:
             card = Card("wall", wall.id, wall.mu)
             wall.card = card
@@ -95,7 +99,7 @@ class Run:
             made.card = card
             self.walls.append(made)
 
-    def add_pair(self, card, first, second, rule, both):
+    def add_pair(self, card, first, second, rule):
         same = first == second
         one = self.make_side(first, True)
         two = one if same else self.make_side(second, False)
@@ -104,7 +108,7 @@ class Run:
                 raise DeckError("the old rule has no self contact")
             self.pairs.append(OldPair(self.boundary, card, one, two, rule))
         else:
-            self.pairs.append(Pair(self.boundary, card, one, two, rule, both))
+            self.pairs.append(Pair(self.boundary, card, one, two, rule))
 
     def make_side(self, what, first):
         """Returns the side of a list of parts, or of a node set."""
@@ -133,13 +137,13 @@ class Run:
             rows += wall.rows(x)
         return rows
 
-    def offset(self, row, beta):
+    def offset(self, row):
         if self.rule == "old":
             return row.gap
         c = row.gap if row.exact else row.gap + row.delta
-        return c if c >= 0 else beta[row.card] * c
+        return c if c >= 0 else row.card.beta * c
 
-    def solve_once(self, rows, beta):
+    def solve_once(self, rows):
         """Solves the law for the rows; returns the motion and fills row.r, row.c, row.u."""
         n = self.body.n
         if not rows:
@@ -150,7 +154,7 @@ class Run:
             for k, weight in [(row.node, 1.0)] + [(k, -w) for k, w in row.places]:
                 h[2 * a, 2 * k : 2 * k + 2] += weight * row.normal
                 h[2 * a + 1, 2 * k : 2 * k + 2] += weight * tangent
-            row.c = self.offset(row, beta) + row.nudge
+            row.c = self.offset(row) + row.nudge
         inner = self.inverse @ h.T
         w = h @ inner
         w = (w + w.T) / 2
@@ -174,25 +178,33 @@ class Run:
 
     def solve(self, rows):
         """Solves with beta as large as the purses allow."""
-        beta = dict.fromkeys(self.cards, self.closing)
-        stage = dict.fromkeys(self.cards, 0)
-        du = self.solve_once(rows, beta)
-        while self.rule == "new" and self.purse:
-            short = False
-            for card in self.cards:
-                mine = [row for row in rows if row.card is card]
-                gain = -sum(row.r[0] * row.c for row in mine if row.c < 0)
-                have = card.purse + sum(row.r[0] * row.c for row in mine if row.c > 0)
-                if gain > have + CLOSED * self.largest and stage[card] < 2:
-                    stage[card] += 1
-                    beta[card] = max(0.0, beta[card] * have / gain) if stage[card] == 1 else 0.0
-                    short = True
-            if not short:
-                break
+        while True:
+            du = self.solve_once(rows)
+            if self.rule != "new" or not self.purse or not self.shorten(rows):
+                return du
             self.counts["purse"] += 1
-            du = self.solve_once(rows, beta)
-        self.beta = beta
-        return du
+
+    def shorten(self, rows):
+        """Lowers beta where more was given than the purse holds; tells whether it had to."""
+        short = False
+        for card in self.cards:
+            mine = [row for row in rows if row.card is card]
+            gain = -sum(row.r[0] * row.c for row in mine if row.c < 0)
+            have = card.purse + sum(row.r[0] * row.c for row in mine if row.c > 0)
+            if gain <= have + CLOSED * self.largest:
+                continue
+            if card.short:
+                card.beta = 0.0
+            else:
+                card.wanted, card.beta = gain, max(0.0, card.beta * have / gain)
+            card.short = short = True
+        return short
+
+    def start_purses(self):
+        """Beta of the step: none where the last one left the purse nearly empty."""
+        for card in self.cards:
+            card.short = card.short and card.purse < WORTH_TRYING * card.wanted
+            card.beta = 0.0 if card.short else self.closing
 
     def step(self, number):
         """Advances by one step; returns the rows of the solve."""
@@ -210,6 +222,7 @@ class Run:
                 far = row.gap + row.normal @ motion[row.node] > 0.25 * self.boundary.length.min()
                 row.exact = row.exact and not far
         active = [row for row in known if row.exact]
+        self.start_purses()
         du = self.solve(active)
         if self.nudge and any(row.r[0] > 0 for row in active):
             max(active, key=lambda row: row.r[0]).nudge = self.nudge
