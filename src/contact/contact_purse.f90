@@ -96,7 +96,7 @@ contains
       purse%beta = zero
     else
       purse%wanted = purse%given
-      purse%beta = min(0.99_wp, max(zero, (purse%balance + purse%taken)/purse%given))
+      purse%beta = min(one - epsilon(one), max(zero, (purse%balance + purse%taken)/purse%given))
       purse%short_steps = purse%short_steps + 1
     end if
   end subroutine lower_beta
