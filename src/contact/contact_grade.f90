@@ -42,25 +42,17 @@ contains
     place%is_exact = .not. lies_flat(own, k, place, cone)
   end subroutine grade_place
 
-  !> Of equal sizes SURFA is exact; within one surface the part of lower id, then the body of
-  !> lower number, then the node.
+  !> Of equal sizes SURFA is exact; within one surface the part of lower id; within one part both,
+  !> so that the numbers of nodes decide nothing.
   pure logical function wins_tie(own, obstacle, k, place)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k
     type(place_t), intent(in) :: place
-    integer :: edge
     wins_tie = place%side == 1
     if (.not. wins_tie) return
     if (size(own%node) /= size(obstacle%node)) return
     if (any(own%node /= obstacle%node)) return
-    edge = maxval(own%node_edge(:, k))
-    if (own%part_id(edge) /= obstacle%part_id(place%edge)) then
-      wins_tie = own%part_id(edge) < obstacle%part_id(place%edge)
-    else if (own%body(edge) /= obstacle%body(place%edge)) then
-      wins_tie = own%body(edge) < obstacle%body(place%edge)
-    else
-      wins_tie = place%node < obstacle%end_node(1, place%edge)
-    end if
+    wins_tie = own%part_id(maxval(own%node_edge(:, k))) <= obstacle%part_id(place%edge)
   end function wins_tie
 
   !> A corner whose own face lies on the edge, no shorter than the edge: the finer nodes of the
@@ -96,7 +88,7 @@ contains
       b = first_place_of(place, low + 1, n, vertex)
       do while (b > 0 .and. b <= n)
         if (place(b)%node /= vertex) exit
-        if (is_twin(side(1), place(a), place(b))) then
+        if (is_twin(side(1), side(merge(1, 2, is_self)), place(a), place(b))) then
           call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, place(a), place(b))
           exit
         end if
@@ -138,12 +130,14 @@ contains
     if (place(a)%node == node) first_place_of = a
   end function first_place_of
 
-  pure logical function is_twin(side_1, p, q)
-    type(surface_t), intent(in) :: side_1
+  !> Is each of two places at the node of the other, by the shorter of their edges?
+  pure logical function is_twin(side_p, side_q, p, q)
+    type(surface_t), intent(in) :: side_p, side_q
     type(place_t), intent(in) :: p, q
     is_twin = .false.
     if (dot_product(p%normal, q%normal) >= -cosine_of_smooth) return
-    is_twin = distance_at(side_1, q, p%node) <= twin*min(p%length, q%length)
+    is_twin = max(distance_at(side_p, q, p%node), distance_at(side_q, p, q%node)) &
+        <= twin*min(p%length, q%length)
   end function is_twin
 
   !> Distance along the boundary between a place and a vertex [L].
@@ -175,7 +169,7 @@ contains
     else if (abs(a%own_size - b%own_size) > equal_size*max(a%own_size, b%own_size)) then
       a_stays = a%own_size < b%own_size
     else if (a%side == b%side) then
-      a_stays = a%is_exact .or. .not. b%is_exact
+      a_stays = stays_in_one_surface(side_a, a, b)
     end if
     is_exact = a%is_exact .or. b%is_exact
     a%is_exact = a_stays .and. is_exact
@@ -183,6 +177,22 @@ contains
     if (a_stays) call take_mean(side_b, x, u, b%normal, a)
     if (.not. a_stays) call take_mean(side_a, x, u, a%normal, b)
   end subroutine settle_pair
+
+  !> Of two places of one surface that of the lower part stays, within a part that which is nearer
+  !> to the other node, so that the numbers of nodes decide only where nothing else does.
+  pure logical function stays_in_one_surface(surface, a, b) result(a_stays)
+    type(surface_t), intent(in) :: surface
+    type(place_t), intent(in) :: a, b
+    integer :: part(2)
+    part(1) = surface%part_id(maxval(surface%node_edge(:, surface%index(a%node))))
+    part(2) = surface%part_id(maxval(surface%node_edge(:, surface%index(b%node))))
+    if (part(1) /= part(2)) then
+      a_stays = part(1) < part(2)
+    else
+      a_stays = distance_at(surface, b, a%node) >= distance_at(surface, a, b%node) &
+          - equal_size*min(a%length, b%length)
+    end if
+  end function stays_in_one_surface
 
   !> normal = mean of it and of the other's, reversed; gap anew.
   pure subroutine take_mean(obstacle, x, u, other, place)
