@@ -251,21 +251,38 @@ contains
                 near%front(i))
             if (near%front(i) == is_behind) cycle
           end if
-          call find_places(own, obstacle, near%node(i), list, model%x, u, free, view, &
-              this%sight)
+          call find_places(own, obstacle, near%node(i), list, model%x, u, view, this%sight, &
+              free)
         end associate
-        call take_places(this, model, s, near%node(i), u, near%distance(i))
+        associate (place => this%sight%place(:this%sight%places))
+          if (any(place%gap < -place%allowance)) call find_distance(this, model%x, u, s, i)
+        end associate
+        call take_places(this, s, near%node(i), near%distance(i))
       end do
     end associate
   end subroutine find_side
 
+  !> The true gap of near node i of a side, where a new list has forgotten it.
+  pure subroutine find_distance(this, x, u, s, i)
+    type(pairing_node_t), intent(inout) :: this
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    integer, intent(in) :: s, i
+    real(wp) :: gap
+    integer :: edge
+    associate (near => this%near(s), obstacle => this%side(facing_side(this, s)))
+      if (.not. obstacle%is_closed .or. near%distance(i) > -huge(one)) return
+      call true_gap(obstacle, near%edge(near%first(i):near%first(i + 1) - 1), x, u, &
+          this%side(s)%node(near%node(i)), gap, edge)
+      if (gap < zero) call look_again(this, x, u, s, near%node(i), gap, edge)
+      near%distance(i) = gap
+    end associate
+  end subroutine find_distance
+
   !> Keeps the places of a node with their grades. A node that is outside has no place that is
   !> deeper than its allowance: that is the far side of a thin body.
-  subroutine take_places(this, model, s, k, u, distance)
+  subroutine take_places(this, s, k, distance)
     type(pairing_node_t), intent(inout) :: this
-    type(model_t), intent(in) :: model
     integer, intent(in) :: s, k
-    real(wp), intent(in), contiguous :: u(:, :)
     real(wp), intent(in) :: distance
     type(place_t) :: place
     integer :: j
@@ -340,35 +357,70 @@ contains
     type(rows_t), intent(in) :: rows
     type(late_t), intent(inout) :: late(:)
     integer, intent(inout) :: n
-    type(view_t) :: view
-    real(wp) :: gap
-    integer :: s, i, j, edge
-    view%may_share = this%is_self .or. this%may_share
-    view%is_reference = this%is_reference
-    view%reach = 0.25_wp*min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest)
+    integer :: s, j, n_first
+    logical :: some_deep
+    some_deep = .false.
     do s = 1, merge(1, 2, this%is_self)
-      associate (near => this%near(s), own => this%side(s), &
-          obstacle => this%side(facing_side(this, s)))
-        do i = 1, near%n
-          associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
-            if (near%front(i) == is_behind) cycle
-            call true_gap(obstacle, list, model%x, u1, own%node(near%node(i)), gap, edge)
-            if (gap >= -least_allowance(own, obstacle, near%node(i), edge)) cycle
-            call look_again(this, model%x, u1, s, near%node(i), gap, edge)
-            if (gap >= zero) cycle
-            call find_places(own, obstacle, near%node(i), list, model%x, u1, u1, view, &
-                this%sight)
-          end associate
-          do j = 1, this%sight%places
-            this%sight%place(j)%side = s
-            call grade_place(own, obstacle, near%node(i), this%finer, this%sight%cone, &
-                this%sight%place(j))
-            call judge_late(this, model, u0, this%sight%place(j), rows, late, n)
-          end do
-        end do
-      end associate
+      if (.not. some_deep) call find_end(this, model, s, u1, .false., some_deep)
+    end do
+    if (.not. some_deep) return
+    ! All places: what meets a deep node decides which of the two has the row.
+    this%places = 0
+    do s = 1, merge(1, 2, this%is_self)
+      call find_end(this, model, s, u1, .true., some_deep)
+      if (s == 1) n_first = this%places
+    end do
+    if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u1, this%place, &
+        n_first, this%places)
+    do j = 1, this%places
+      call judge_late(this, model, u0, this%place(j), rows, late, n)
     end do
   end subroutine node_find_late
+
+  !> Places of the near nodes of a side at the end of the step: of all, or only until one of them
+  !> is too deep.
+  subroutine find_end(this, model, s, u, is_all, some_deep)
+    type(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: s
+    real(wp), intent(in), contiguous :: u(:, :)
+    logical, intent(in) :: is_all
+    logical, intent(inout) :: some_deep
+    type(view_t) :: view
+    real(wp) :: gap
+    integer :: i, edge
+    view = view_of_end(this)
+    associate (near => this%near(s), own => this%side(s), &
+        obstacle => this%side(facing_side(this, s)))
+      do i = 1, near%n
+        if (near%front(i) == is_behind) cycle
+        associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
+          call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
+          if (gap < -least_allowance(own, obstacle, near%node(i), edge)) then
+            call look_again(this, model%x, u, s, near%node(i), gap, edge)
+          else
+            gap = max(gap, tiny(one))
+          end if
+          if (gap > merge(view%reach, zero, is_all)) cycle
+          call find_places(own, obstacle, near%node(i), list, model%x, u, view, this%sight)
+        end associate
+        if (is_all) call take_places(this, s, near%node(i), gap)
+        associate (place => this%sight%place(:this%sight%places))
+          some_deep = some_deep .or. any(place%gap < -too_deep*place%allowance)
+        end associate
+        if (some_deep .and. .not. is_all) return
+      end do
+    end associate
+  end subroutine find_end
+
+  !> At the end of a step only what is near is looked for.
+  pure type(view_t) function view_of_end(this)
+    type(pairing_node_t), intent(in) :: this
+    view_of_end%may_share = this%is_self .or. this%may_share
+    view_of_end%is_reference = this%is_reference
+    view_of_end%reach = &
+        0.25_wp*min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest)
+  end function view_of_end
 
   !> No node may be less deep than this and still need a row [L].
   pure real(wp) function least_allowance(own, obstacle, k, edge)

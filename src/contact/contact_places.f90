@@ -92,13 +92,14 @@ contains
 
   !> Places of row k of the nodes of `own` on the listed edges of the obstacle, at X + U, into
   !> sight%place, the nearest first. free (2, nodes): the motion that chooses the normal at a
-  !> convex corner [L].
-  subroutine find_places(own, obstacle, k, list, x, u, free, view, sight)
+  !> convex corner [L]; none where it is absent.
+  subroutine find_places(own, obstacle, k, list, x, u, view, sight, free)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, list(:)
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(view_t), intent(in) :: view
     type(sight_t), intent(inout) :: sight
+    real(wp), intent(in), optional, contiguous :: free(:, :)
     type(cone_of_node_t) :: cone
     integer :: j
     sight%places = 0
@@ -110,7 +111,7 @@ contains
       call see_edge(own, obstacle, k, list(j), x, u, view, cone, .true., sight)
     end do
     do j = 1, size(list)
-      call look_at_vertices(own, obstacle, k, j, size(list), x, u, free, view, cone, sight)
+      call look_at_vertices(own, obstacle, k, j, size(list), x, u, view, cone, sight, free)
     end do
     do j = 1, sight%n
       if (sight%is_kept(j)) call add_edge_place(obstacle, own%node(k), j, x, u, sight)
@@ -169,14 +170,15 @@ contains
   end function clamped
 
   !> Both ends of edge j of the list; a vertex between two listed edges once.
-  subroutine look_at_vertices(own, obstacle, k, j, listed, x, u, free, view, cone, sight)
+  subroutine look_at_vertices(own, obstacle, k, j, listed, x, u, view, cone, sight, free)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, j, listed
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
-    real(wp) :: y(2)
+    real(wp), intent(in), optional, contiguous :: free(:, :)
+    real(wp) :: y(2), f(2)
     integer :: s, other, vertex, first, second
     do s = 1, 2
       other = obstacle%neighbour(s, sight%edge(j))
@@ -196,19 +198,18 @@ contains
           call see_edge(own, obstacle, k, other, x, u, view, cone, .false., sight)
       first = merge(sight%at(other), j, s == 1)
       second = merge(j, sight%at(other), s == 1)
-      call judge_vertex(own, obstacle, k, vertex, first, second, y, x, u, free, view, cone, &
-          sight)
+      f = zero
+      if (present(free)) f = free(:, own%node(k)) - free(:, vertex)
+      call judge_vertex(own, obstacle, k, vertex, first, second, y, f, view, cone, sight)
     end do
   end subroutine look_at_vertices
 
   !> What a vertex between two edges of the list changes: rows of edges that come or go, and a
   !> row of its own.
-  subroutine judge_vertex(own, obstacle, k, vertex, first, second, y, x, u, free, view, cone, &
-      sight)
+  subroutine judge_vertex(own, obstacle, k, vertex, first, second, y, f, view, cone, sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, vertex, first, second
-    real(wp), intent(in) :: y(2)
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in) :: y(2), f(2)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -231,8 +232,8 @@ contains
       if (in_first .or. in_second) return
       call add_smooth_vertex(own%node(k), vertex, first, second, shorter, y, view, cone, sight)
     else
-      call judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, x, u, free, &
-          view, cone, sight)
+      call judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, f, view, &
+          cone, sight)
     end if
   end subroutine judge_vertex
 
@@ -254,12 +255,11 @@ contains
 
   !> A convex corner: inside both half-planes the shallower edge holds; behind both ends, or at
   !> the very end of one, the vertex.
-  subroutine judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, x, u, &
-      free, view, cone, sight)
+  subroutine judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, f, view, &
+      cone, sight)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, vertex, first, second
-    real(wp), intent(in) :: turn, shorter, y(2)
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in) :: turn, shorter, y(2), f(2)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -286,20 +286,19 @@ contains
           shorter)
       if (beyond > enough) return
     end if
-    call choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, x, u, free, &
-        view, cone, sight)
+    call choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, f, view, &
+        cone, sight)
   end subroutine judge_corner
 
   !> The row of a convex corner: a normal of its cone that is one of the node's too, reversed.
   !> Of the two ends of what they have in common, the one whose half-plane the free motion f
   !> leaves least, or last. held: the edge that the row would replace, 0 = none; it stays where
   !> the common cone is narrow: faces that lie on each other.
-  subroutine choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, x, u, &
-      free, view, cone, sight)
+  subroutine choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, f, view, &
+      cone, sight)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k, vertex, first, second, held
-    real(wp), intent(in) :: turn, shorter, y(2)
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :), free(:, :)
+    real(wp), intent(in) :: turn, shorter, y(2), f(2)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -314,13 +313,12 @@ contains
         return
       end if
     end if
-    if (is_beside(middle, half*turn, low, high, y, free(:, own%node(k)) - free(:, vertex), &
+    if (is_beside(middle, half*turn, low, high, y, f, &
         beside*min(shorter, size_or(own, k, cone, middle, shorter)))) return
     if (high - low < 1.0e-9_wp) then
       n = direction(middle, half*(low + high))
     else
-      call choose_normal(direction(middle, low), direction(middle, high), y, &
-          free(:, own%node(k)) - free(:, vertex), &
+      call choose_normal(direction(middle, low), direction(middle, high), y, f, &
           allowance_of(own, k, size_of_node(own, k, cone, middle), shorter), shorter, n)
     end if
     gap = dot_product(n, y)
