@@ -100,6 +100,10 @@ class Side:
         self.edges = np.array(sorted(edges), dtype=int)
         self.first = first  # SURFA wins ties
         mine = set(self.edges.tolist())
+        self.closed = all(
+            boundary.closed[k] and boundary.into[k] in mine and boundary.out[k] in mine
+            for k in boundary.edges[self.edges].ravel()
+        )
         self.vertices = np.array(
             [k for k in self.nodes
              if boundary.closed[k] and boundary.into[k] in mine and boundary.out[k] in mine],
@@ -236,7 +240,28 @@ class Finder:
             result += self.merged(shape, list(listed.values()) + extra)
         for row in result:
             self.grade(shape, row)
-        return result
+        return [row for row in result if row.gap >= -row.delta or self.is_inside(shape, row.node)]
+
+    def is_inside(self, shape, i):
+        """Tells whether node i is behind the nearest point of a closed boundary; True: open."""
+        b, other = self.boundary, self.other
+        barred = self.near[i] if self.same else set()
+        edges = [e for e in other.edges if not set(map(int, b.edges[e])) & barred]
+        if not other.closed or not edges:
+            return True
+        first, second = shape.x[b.edges[edges, 0]], shape.x[b.edges[edges, 1]]
+        span, y = second - first, shape.x[i] - first
+        s = np.clip(np.sum(span * y, axis=1) / np.sum(span**2, axis=1), 0.0, 1.0)
+        away = y - s[:, None] * span
+        j = int(np.argmin(np.sum(away**2, axis=1)))
+        if 0.0 < s[j] < 1.0:
+            return bool(cross(span[j], y[j]) > 0.0)
+        k = b.edges[edges[j], int(s[j])]
+        y = shape.x[i] - shape.x[k]
+        g = shape.normal[b.into[k]] @ y, shape.normal[b.out[k]] @ y
+        if abs(np.sin(shape.turn[k])) < 1e-3:
+            return bool(sum(g) < 0.0)
+        return bool((max(g) if shape.turn[k] > 0.0 else min(g)) < 0.0)
 
     def at_vertex(self, shape, i, k, s, close, motion, reach, listed, extra):
         """Adds and removes rows of node i at the vertex k (step 2)."""
@@ -423,8 +448,15 @@ class Pair:
         if abs(difference) > DEGREE:
             if difference < 0:
                 stays, goes = two, one
-        elif two.size < one.size * (1 - TIE):
-            stays, goes = two, one
+        elif abs(one.size - two.size) > TIE * max(one.size, two.size):
+            if two.size < one.size:
+                stays, goes = two, one
+        elif self.finders[0].same:
+            # Within one part the place that is nearer to the other node.
+            off = [(1.0 - dict(p.places)[q.node]) * self.boundary.length[p.edge]
+                   for p, q in ((one, two), (two, one))]
+            if off[1] < off[0] - TIE * min(one.length, two.length):
+                stays, goes = two, one
         n = stays.normal - goes.normal
         stays.normal = n / np.hypot(*n)
         stays.gap = stays.normal @ stays.relative(shape.x)
