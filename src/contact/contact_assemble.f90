@@ -101,7 +101,8 @@ contains
 
   !> After a solve with force (2, m) on the interface: spare rows that are below their allowance
   !> come first; where there is none, nodes that are too deep at the end of the step, and rows
-  !> whose frames have turned too much. is_complete: nothing was missing.
+  !> whose frames have turned too much. Bodies that only pass turn too: acting or not, the end is
+  !> looked at. is_complete: nothing was missing.
   subroutine add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -111,7 +112,6 @@ contains
     real(wp) :: d(2)
     integer :: b, n, below
     is_complete = .true.
-    if (contact%spare%n == 0 .and. .not. acting) return
     contact%x_end = x_free
     if (acting) call add_product(size(force), contact%schur_inverse, force, contact%x_end)
     below = 0
@@ -129,7 +129,7 @@ contains
       contact%w_is_current = .false.
       call find_slots(contact%slot, contact%rows)
       if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
-    else if (acting) then
+    else
       call place_end(contact, u, contact%x_end)
       call find_late(model, contact, u, n)
       if (n == 0 .or. contact%late_rounds == most_late_rounds) return

@@ -264,41 +264,38 @@ contains
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
     logical :: in_first, in_second
-    real(wp) :: beyond, enough
-    integer :: held, deeper
+    real(wp) :: beyond, stays
+    integer :: held
     in_first = sight%s(first) <= one + end_tolerance
     in_second = sight%s(second) >= -end_tolerance
-    enough = zero
     held = 0
+    stays = zero
     if (in_first .and. in_second) then
-      deeper = merge(first, second, sight%gap(first) < sight%gap(second))
-      held = merge(second, first, deeper == first)
-      if (abs(sight%gap(first) - sight%gap(second)) > 1.0e-7_wp*shorter) then
-        sight%is_kept(deeper) = .false.
-        return
-      end if
-      if (sight%is_kept(deeper) .and. .not. sight%is_kept(held)) held = deeper
+      if (.not. (sight%is_kept(first) .and. sight%is_kept(second))) return
+      held = merge(second, first, sight%gap(first) < sight%gap(second))
+      sight%is_kept(merge(second, first, held == first)) = .false.
+      if (abs(sight%gap(first) - sight%gap(second)) > 1.0e-7_wp*shorter) return
     else if (in_first .or. in_second) then
       held = merge(first, second, in_first)
+      stays = narrow
       beyond = merge(one - sight%s(first), sight%s(second), in_first) &
           *obstacle%length(sight%edge(held))
-      enough = allowance_of(own, k, size_of_node(own, k, cone, sight%frame(held)%normal), &
-          shorter)
-      if (beyond > enough) return
+      if (beyond > allowance_of(own, k, size_of_node(own, k, cone, sight%frame(held)%normal), &
+          shorter)) return
     end if
-    call choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, f, view, &
-        cone, sight)
+    call choose_at_corner(own, k, vertex, first, second, held, stays, turn, shorter, y, f, &
+        view, cone, sight)
   end subroutine judge_corner
 
   !> The row of a convex corner: a normal of its cone that is one of the node's too, reversed.
   !> Of the two ends of what they have in common, the one whose half-plane the free motion f
-  !> leaves least, or last. held: the edge that the row would replace, 0 = none; it stays where
-  !> the common cone is narrow: faces that lie on each other.
-  subroutine choose_at_corner(own, k, vertex, first, second, held, turn, shorter, y, f, view, &
-      cone, sight)
+  !> leaves least, or last. held: the edge whose row it would replace, 0 = none; that stays where
+  !> the common cone is narrower than `stays`: faces that lie on each other.
+  subroutine choose_at_corner(own, k, vertex, first, second, held, stays, turn, shorter, y, f, &
+      view, cone, sight)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k, vertex, first, second, held
-    real(wp), intent(in) :: turn, shorter, y(2), f(2)
+    real(wp), intent(in) :: stays, turn, shorter, y(2), f(2)
     type(view_t), intent(in) :: view
     type(cone_of_node_t), intent(in) :: cone
     type(sight_t), intent(inout) :: sight
@@ -307,11 +304,8 @@ contains
     middle = cos(half*turn)*middle + sin(half*turn)*[-middle(2), middle(1)]
     call common_directions(middle, half*turn, cone, low, high)
     if (high - low < -empty) return
-    if (held > 0 .and. high - low < narrow) then
-      if (sight%is_kept(held)) then
-        sight%is_kept(merge(second, first, held == first)) = .false.
-        return
-      end if
+    if (held > 0 .and. high - low < stays) then
+      if (sight%is_kept(held)) return
     end if
     if (is_beside(middle, half*turn, low, high, y, f, &
         beside*min(shorter, size_or(own, k, cone, middle, shorter)))) return
@@ -323,18 +317,15 @@ contains
     end if
     gap = dot_product(n, y)
     if (gap > view%reach .or. gap <= -deepest*shorter) return
-    if (held > 0) then
-      sight%is_kept(first) = .false.
-      sight%is_kept(second) = .false.
-    end if
+    if (held > 0) sight%is_kept(held) = .false.
     call keep_edge_normal(sight%frame(first)%normal, n)
     call keep_edge_normal(sight%frame(second)%normal, n)
     call add_vertex_place(own%node(k), vertex, sight%edge(first), n, dot_product(n, y), &
         shorter, sight)
   end subroutine choose_at_corner
 
-  !> A node beside the corner, clear of it by more than `enough` at both ends of its free motion f
-  !> in a direction of the corner's cone that is none of the node's: it meets nothing there.
+  !> A node beside the corner, clear of it by more than `enough` at both ends of its free
+  !> motion f in a direction of the corner's cone that is none of the node's: it meets nothing.
   pure logical function is_beside(middle, half_width, low, high, y, f, enough)
     real(wp), intent(in) :: middle(2), half_width, low, high, y(2), f(2), enough
     real(wp) :: d(2)

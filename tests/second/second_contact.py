@@ -181,9 +181,9 @@ def choose_normal(shape, node, k, motion, delta, length):
     if any(stays):
         return ends[int(stays[1])], width
     times = [g / (g - h) if g > h else np.inf for g, h in zip(gap, left)]
-    if times[0] == times[1]:
+    if times == [np.inf, np.inf]:
         return ends[int(left[1] > left[0])], width
-    if abs(times[0] - times[1]) * max(abs(f @ n) for n in ends) <= tie:
+    if max(times) < np.inf and abs(times[0] - times[1]) * np.hypot(*f) <= tie:
         return middle, width
     return ends[int(times[1] > times[0])], width
 
@@ -297,7 +297,7 @@ class Finder:
                 else:
                     del listed[first if g[0] < g[1] else second]
         elif not any(strip):
-            if good and not self.passes_beside(shape, i, k, motion, length, n):
+            if good and not self.passes_beside(shape, i, k, motion, length):
                 extra.append(vertex_row(shape, i, k, n))
         else:
             e = first if strip[0] else second
@@ -306,13 +306,13 @@ class Finder:
             near_end = distance <= self.delta(i, size, length)
             # A narrow cone keeps the edge if it makes a row: two faces on each other.
             if near_end and good and (width >= NARROW or e not in listed):
-                if not self.passes_beside(shape, i, k, motion, length, n):
+                if not self.passes_beside(shape, i, k, motion, length):
                     listed.pop(e, None)
                     extra.append(vertex_row(shape, i, k, n))
 
-    def passes_beside(self, shape, i, k, motion, length, n):
+    def passes_beside(self, shape, i, k, motion, length):
         """Tells whether node i stays clear of corner k along a flank that its row leaves out."""
-        size = BESIDE * min(length, self.size(shape, i, n))
+        size = BESIDE * min(length, self.size(shape, i, shape.mean_normal(k)))
         y, f = shape.x[i] - shape.x[k], motion[i] - motion[k]
         for end in (-1, 1):
             angle = shape.middle[k] + end * shape.half[k]

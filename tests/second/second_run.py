@@ -265,19 +265,20 @@ class Run:
                 and row.normal @ new.normal > APART
             ]
             start = new.normal @ new.relative(x0)
-            if fit:
-                row = max(fit, key=lambda row: row.normal @ new.normal)
+            held = [row for row in fit if row in active]
+            if held:
+                row = max(held, key=lambda row: row.normal @ new.normal)
                 if min(row.gap, 0.0) - new.gap <= new.delta:
                     continue
                 row.edge, row.vertex, row.places = new.edge, new.vertex, new.places
                 row.normal, row.gap, row.length = new.normal, start, new.length
                 self.counts["redone"] += 1
             else:
-                row, row.gap, row.nudge = new, start, 0.0
-                known.append(row)
+                # It takes the place of what was kept apart for the same node and direction.
+                known[:] = [row for row in known if row not in fit] + [new]
+                new.gap, new.nudge = start, 0.0
+                active.append(new)
                 self.counts["added"] += 1
-            if row not in active:
-                active.append(row)
             changed = True
         return changed
 
