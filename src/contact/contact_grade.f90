@@ -42,8 +42,8 @@ contains
     place%is_exact = .not. lies_flat(own, k, place, cone)
   end subroutine grade_place
 
-  !> Of equal sizes SURFA is exact; within one surface the part of lower id; within one part both,
-  !> so that the numbers of nodes decide nothing.
+  !> Of equal sizes SURFA is exact; within one surface the part of lower id; within one part
+  !> both, so that the numbers of nodes decide nothing.
   pure logical function wins_tie(own, obstacle, k, place)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k
@@ -73,7 +73,8 @@ contains
 
   !> Two nodes that meet each other: the more convex one stays, then that of the shorter edges,
   !> then SURFA's; its normal is the mean of the two, so that a mirrored scene is mirrored. The
-  !> other keeps an allowance. first (2): places of side 1 end where those of side 2 begin.
+  !> other keeps an allowance. Of several places of a node the most opposite one counts. The
+  !> first n_first places are of side 1, sorted by node, the others of side 2.
   pure subroutine settle_twins(side, is_self, x, u, place, n_first, n)
     type(surface_t), intent(in) :: side(2)
     logical, intent(in) :: is_self
@@ -88,14 +89,53 @@ contains
       b = first_place_of(place, low + 1, n, vertex)
       do while (b > 0 .and. b <= n)
         if (place(b)%node /= vertex) exit
-        if (is_twin(side(1), side(merge(1, 2, is_self)), place(a), place(b))) then
-          call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, place(a), place(b))
-          exit
-        end if
+        if (is_best_twin(side(1), side(merge(1, 2, is_self)), place(:n), a, b)) &
+            call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, place(a), place(b))
         b = b + 1
       end do
     end do
   end subroutine settle_twins
+
+  !> Are places a and b twins, and is no other place of their two nodes more opposite to either?
+  pure logical function is_best_twin(side_a, side_b, place, a, b)
+    type(surface_t), intent(in) :: side_a, side_b
+    type(place_t), intent(in) :: place(:)
+    integer, intent(in) :: a, b
+    integer :: ends(2), i
+    is_best_twin = is_twin(side_a, side_b, place(a), place(b))
+    if (.not. is_best_twin) return
+    ends = places_of_node(place, a)
+    do i = ends(1), ends(2)
+      if (dot_product(place(i)%normal - place(a)%normal, place(b)%normal) >= zero) cycle
+      if (is_twin(side_a, side_b, place(i), place(b))) is_best_twin = .false.
+    end do
+    ends = places_of_node(place, b)
+    do i = ends(1), ends(2)
+      if (dot_product(place(a)%normal, place(i)%normal - place(b)%normal) >= zero) cycle
+      if (is_twin(side_a, side_b, place(a), place(i))) is_best_twin = .false.
+    end do
+  end function is_best_twin
+
+  !> First and last of the places of the node of place k.
+  pure function places_of_node(place, k) result(ends)
+    type(place_t), intent(in) :: place(:)
+    integer, intent(in) :: k
+    integer :: ends(2)
+    ends = k
+    do while (ends(1) > 1)
+      if (.not. is_same_node(place(ends(1) - 1), place(k))) exit
+      ends(1) = ends(1) - 1
+    end do
+    do while (ends(2) < size(place))
+      if (.not. is_same_node(place(ends(2) + 1), place(k))) exit
+      ends(2) = ends(2) + 1
+    end do
+  end function places_of_node
+
+  pure logical function is_same_node(p, q)
+    type(place_t), intent(in) :: p, q
+    is_same_node = p%node == q%node .and. p%side == q%side
+  end function is_same_node
 
   !> The vertex of the obstacle that a place is nearly at; 0 = none.
   pure integer function vertex_met(obstacle, place)
@@ -178,8 +218,8 @@ contains
     if (.not. a_stays) call take_mean(side_a, x, u, a%normal, b)
   end subroutine settle_pair
 
-  !> Of two places of one surface that of the lower part stays, within a part that which is nearer
-  !> to the other node, so that the numbers of nodes decide only where nothing else does.
+  !> Of two places of one surface that of the lower part stays, within a part that which is
+  !> nearer to the other node: the numbers of nodes decide only where nothing else does.
   pure logical function stays_in_one_surface(surface, a, b) result(a_stays)
     type(surface_t), intent(in) :: surface
     type(place_t), intent(in) :: a, b

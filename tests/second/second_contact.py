@@ -420,25 +420,27 @@ class Pair:
         by_node = {}
         for row in back:
             by_node.setdefault(row.node, []).append(row)
-        settled = set()
-        for one in ahead:
-            ends = {int(k) for k, _ in one.places}
-            for k in sorted(ends):
-                for two in by_node.get(k, ()):
-                    if one is two or id(one) in settled or id(two) in settled:
-                        continue
-                    if one.node in {int(j) for j, _ in two.places} and self.twins(shape, one, two):
-                        settled |= {id(one), id(two)}
-                        self.settle(shape, one, two)
+        order = {id(row): place for place, row in enumerate(ahead)}
+        met = [
+            (one, two) for one in ahead for k in sorted({int(k) for k, _ in one.places})
+            for two in by_node.get(k, ()) if self.twins(one, two)
+            and not (ahead is back and order[id(two)] < order[id(one)])
+        ]
+        # Of several rows of a node that meet one row the most opposite is its twin.
+        for one, two in met:
+            rivals = [(p, q) for p, q in met if (p is one) != (q is two)]
+            rivals = [(p, q) for p, q in rivals if p.node == one.node and q.node == two.node]
+            if all(one.normal @ two.normal <= p.normal @ q.normal for p, q in rivals):
+                self.settle(shape, one, two)
 
-    def twins(self, shape, one, two):
+    def off(self, row, k):
+        """Returns how far along its edge the place of a row is from node k."""
+        return (1.0 - dict(row.places).get(k, -np.inf)) * self.boundary.length[row.edge]
+
+    def twins(self, one, two):
         near = TWIN * min(one.length, two.length)
-        x = shape.x
-        return (
-            np.hypot(*(one.place(x) - x[two.node])) <= near
-            and np.hypot(*(two.place(x) - x[one.node])) <= near
-            and one.normal @ two.normal < -APART
-        )
+        far = max(self.off(one, two.node), self.off(two, one.node))
+        return far <= near and one.normal @ two.normal < -APART
 
     def settle(self, shape, one, two):
         """`one` belongs to SURFA."""
@@ -453,8 +455,7 @@ class Pair:
                 stays, goes = two, one
         elif self.finders[0].same:
             # Within one part the place that is nearer to the other node.
-            off = [(1.0 - dict(p.places)[q.node]) * self.boundary.length[p.edge]
-                   for p, q in ((one, two), (two, one))]
+            off = self.off(one, two.node), self.off(two, one.node)
             if off[1] < off[0] - TIE * min(one.length, two.length):
                 stays, goes = two, one
         n = stays.normal - goes.normal
