@@ -7,8 +7,8 @@ module contact_node
   use contact_features, only: gap_to_place, smooth_angle
   use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
-  use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, deepest_inner_point, &
-      deepest_crossing
+  use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, &
+      deepest_inner_point, deepest_crossing
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
   use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
@@ -109,8 +109,8 @@ contains
   end subroutine place_trees
 
   !> Near nodes and the nodes of their edges, with one more edge on either side, so that sliding
-  !> does not outgrow the interface at once. Beyond a convex corner the next edge has no rows: its
-  !> far node is carried along with the corner.
+  !> does not outgrow the interface at once. Beyond a convex corner the next edge has no rows:
+  !> its far node is carried along with the corner.
   subroutine node_mark_interface(this, model, taken, carrier)
     class(pairing_node_t), intent(in) :: this
     type(model_t), intent(in) :: model
@@ -138,8 +138,8 @@ contains
     end do
   end subroutine node_mark_interface
 
-  !> Is the boundary convex by more than 60 degrees between an edge and that before it (s = 1) or
-  !> behind it (s = 2)?
+  !> Is the boundary convex by more than 60 degrees between an edge and that before it (s = 1)
+  !> or behind it (s = 2)?
   pure logical function is_sharp(surface, edge, next, s)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: edge, next, s
@@ -377,8 +377,8 @@ contains
     end do
   end subroutine node_find_late
 
-  !> Places of the near nodes of a side at the end of the step: of all, or only until one of them
-  !> is too deep.
+  !> Places of the near nodes of a side at the end of the step: of all, or only until one of
+  !> them is too deep.
   subroutine find_end(this, model, s, u, is_all, some_deep)
     type(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
@@ -500,8 +500,8 @@ contains
     end do
   end subroutine node_measure
 
-  !> A deep node is looked at with all edges of a closed obstacle: those on the list are only those
-  !> that may face it, and the far side of a thin body may be among them.
+  !> A deep node is looked at with all edges of a closed obstacle: those on the list are only
+  !> those that may face it, and the far side of a thin body may be among them.
   pure subroutine look_again(this, x, u, s, k, gap, edge)
     class(pairing_node_t), intent(in) :: this
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
@@ -560,8 +560,9 @@ contains
         call deepest_before_open(this, model, s, t, u, overlap)
       end if
     end do
-    if (.not. found .and. this%side(1)%is_closed .and. this%side(facing_side(this, 1))%is_closed) &
-        call deepest_crossing(this%side(1), this%side(facing_side(this, 1)), &
+    if (.not. found .and. this%side(1)%is_closed .and. &
+        this%side(facing_side(this, 1))%is_closed) call deepest_crossing(this%side(1), &
+        this%side(facing_side(this, 1)), &
         this%tree(facing_side(this, 1)), model%x, u, this%is_self, &
         this%leaves_out, overlap)
     accepted = accepted_overlap(this, model%x, u)
@@ -586,8 +587,8 @@ contains
     end associate
   end subroutine deepest_before_open
 
-  !> What may overlap at the start: the digits of a deck do not give a touch better [L]. Fields of
-  !> ten columns hold seven digits of a coordinate.
+  !> What may overlap at the start: the digits of a deck do not give a touch better [L]. Fields
+  !> of ten columns hold seven digits of a coordinate.
   pure real(wp) function accepted_overlap(this, x, u)
     type(pairing_node_t), intent(in) :: this
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)

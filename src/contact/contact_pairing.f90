@@ -46,6 +46,8 @@ module contact_pairing
     real(wp) :: beta = 1.0_wp       !< share of the overlaps that this step closes
     integer :: short_steps = 0      !< steps with beta < 1
     real(wp) :: given = zero, taken = zero   !< by the solve just done [F L]
+    logical :: is_shut = .false.         !< nothing is given in this step
+    logical :: was_short = .false.       !< in some solve of this step
   end type purse_t
 
   !> The deepest overlap that was found.

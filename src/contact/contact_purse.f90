@@ -15,7 +15,7 @@ module contact_purse
   use contact_types, only: contact_t
   implicit none
   private
-  public :: start_purses, set_offsets, purse_is_short
+  public :: start_purses, open_purses, set_offsets, purse_is_short
 
   !> Closing round-off is free: this share of the largest term of the energy ledger.
   real(wp), parameter :: round_off = 1.0e-12_wp
@@ -24,21 +24,30 @@ module contact_purse
 
 contains
 
-  !> beta at the start of a step: 1; 0 where the last step left the purse nearly empty, so that an
-  !> empty purse costs no second solve.
+  !> A step begins: a purse that the last one left nearly empty is shut, so that it costs no
+  !> second solve.
   pure subroutine start_purses(contact)
     type(contact_t), intent(inout) :: contact
     integer :: p
     do p = 1, size(contact%pairing)
       associate (purse => contact%pairing(p)%item%purse)
-        if (purse%beta < one .and. purse%balance < worth_trying*purse%wanted) then
-          purse%beta = zero
-        else
-          purse%beta = one
-        end if
+        purse%is_shut = purse%beta < one .and. purse%balance < worth_trying*purse%wanted
+        purse%was_short = .false.
       end associate
     end do
   end subroutine start_purses
+
+  !> beta for the rows as they are now, whatever those before them have asked for: 1, or 0 of a
+  !> purse that is shut.
+  pure subroutine open_purses(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: p
+    do p = 1, size(contact%pairing)
+      associate (purse => contact%pairing(p)%item%purse)
+        purse%beta = merge(zero, one, purse%is_shut)
+      end associate
+    end do
+  end subroutine open_purses
 
   !> c of every row.
   pure subroutine set_offsets(contact)
@@ -97,7 +106,8 @@ contains
     else
       purse%wanted = purse%given
       purse%beta = min(one - epsilon(one), max(zero, (purse%balance + purse%taken)/purse%given))
-      purse%short_steps = purse%short_steps + 1
+      if (.not. purse%was_short) purse%short_steps = purse%short_steps + 1
+      purse%was_short = .true.
     end if
   end subroutine lower_beta
 

@@ -11,7 +11,7 @@ module contact_stage
   use contact_assemble, only: find_rows, add_missing_rows, count_rows
   use contact_condense, only: build_w
   use contact_monitor, only: check_listed
-  use contact_purse, only: start_purses, set_offsets, purse_is_short
+  use contact_purse, only: start_purses, open_purses, set_offsets, purse_is_short
   use contact_rows, only: rows_t, relative_displacement, add_row_force
   use contact_types, only: contact_t
   use model_data, only: model_t
@@ -68,6 +68,7 @@ contains
     integer, parameter :: most_attempts = 3
     integer :: attempt
     call build_w(contact)
+    call open_purses(contact)
     do attempt = 1, most_attempts
       call set_offsets(contact)
       call find_q(contact, x_free)

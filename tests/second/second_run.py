@@ -25,7 +25,7 @@ class Card:
     def __init__(self, kind, identity, mu):
         self.kind, self.id, self.mu = kind, identity, mu
         self.purse, self.wanted = 0.0, 0.0
-        self.beta, self.short = 1.0, False
+        self.beta, self.short, self.shut = 1.0, False, False
 
 
 def parts_of(deck, identity):
@@ -177,7 +177,9 @@ class Run:
         return du
 
     def solve(self, rows):
-        """Solves with beta as large as the purses allow."""
+        """Solves with beta as large as the purses allow, whatever the rows before asked for."""
+        for card in self.cards:
+            card.short, card.beta = card.shut, 0.0 if card.shut else self.closing
         while True:
             du = self.solve_once(rows)
             if self.rule != "new" or not self.purse or not self.shorten(rows):
@@ -201,10 +203,9 @@ class Run:
         return short
 
     def start_purses(self):
-        """Beta of the step: none where the last one left the purse nearly empty."""
+        """Shuts the purses that the last step left nearly empty."""
         for card in self.cards:
-            card.short = card.short and card.purse < WORTH_TRYING * card.wanted
-            card.beta = 0.0 if card.short else self.closing
+            card.shut = card.short and card.purse < WORTH_TRYING * card.wanted
 
     def step(self, number):
         """Advances by one step; returns the rows of the solve."""
