@@ -125,8 +125,8 @@ contains
           hint = 'open the gap'
           if (pairing%is_wall) hint = 'move the wall, or name the nodes in front of it (NSID)'
           call fail(status, status_deck, 'initial penetration: '//place_of(model, pairing)// &
-              ' at the start', hint=hint//'; a larger PENTOL on *BIPACT_CONTACT (a share of '// &
-              'the edge) takes it for a touch')
+              ' at the start', hint=hint//'; PENTOL of *BIPACT_CONTACT takes up to '// &
+              '1E-3 of an edge for a touch')
         else
           call fail(status, status_numerical, place_of(model, pairing)// &
               ': the contact is born overlapped', hint='the bodies must be apart at TBIRTH')

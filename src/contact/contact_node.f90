@@ -4,7 +4,7 @@
 module contact_node
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
-  use contact_features, only: gap_to_place, smooth_angle
+  use contact_features, only: cone_of_node_t, cone_of_node, gap_to_place, smooth_angle
   use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
   use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, &
@@ -43,6 +43,8 @@ module contact_node
   real(wp), parameter :: too_deep = 1.5_wp
   !> Shallower nodes are inside where the listed edges say so.
   real(wp), parameter :: sure = 5.0e-3_wp
+  !> Edges: how far outside a node its own body is asked for.
+  real(wp), parameter :: outward = 1.0e-3_wp
 
 contains
 
@@ -508,16 +510,25 @@ contains
     integer, intent(in) :: s, k
     real(wp), intent(inout) :: gap
     integer, intent(inout) :: edge
+    type(cone_of_node_t) :: cone
     real(wp) :: depth
     logical :: is_inside
-    integer :: without
+    integer :: body, other
     associate (own => this%side(s), obstacle => this%side(facing_side(this, s)))
       if (-gap < sure*obstacle%length(edge) .or. .not. obstacle%is_closed) return
-      without = 0
-      if (this%is_self) without = own%body(maxval(own%node_edge(:, k)))
-      if (without == obstacle%body(edge)) return
-      call confirm_inside(obstacle, x, u, own%node(k), without, is_inside, depth, edge)
-      gap = merge(-depth, depth, is_inside)
+      body = 0
+      if (this%is_self) body = own%body(maxval(own%node_edge(:, k)))
+      if (body == obstacle%body(edge)) then
+        ! Of its own body: just outside the node is its inside again, where it closes on itself.
+        call cone_of_node(own, k, x, u, .false., cone)
+        call confirm_inside(obstacle, x, u, own%node(k), outward*own%shortest*cone%middle, &
+            body, 0, is_inside, depth, other)
+        if (.not. is_inside) gap = -gap
+      else
+        call confirm_inside(obstacle, x, u, own%node(k), [zero, zero], 0, body, is_inside, &
+            depth, edge)
+        gap = merge(-depth, depth, is_inside)
+      end if
     end associate
   end subroutine look_again
 

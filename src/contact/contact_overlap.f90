@@ -97,12 +97,14 @@ contains
     end if
   end function is_behind_vertex
 
-  !> Is a node inside the closed obstacle, all its edges asked? depth [L] below the edge nearest
-  !> to it. Edges of one body may be left out (0 = none).
-  pure subroutine confirm_inside(obstacle, x, u, node, without, is_inside, depth, edge)
+  !> Is a node, moved by shift [L], inside the closed obstacle, all its edges asked, or those of one
+  !> body alone, or those of the others (0: neither)? depth [L] below the edge nearest to it.
+  pure subroutine confirm_inside(obstacle, x, u, node, shift, only, without, is_inside, depth, &
+      edge)
     type(surface_t), intent(in) :: obstacle
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
-    integer, intent(in) :: node, without
+    real(wp), intent(in) :: shift(2)
+    integer, intent(in) :: node, only, without
     logical, intent(out) :: is_inside
     real(wp), intent(out) :: depth
     integer, intent(out) :: edge
@@ -112,9 +114,9 @@ contains
     best = huge(one)
     edge = 0
     do e = 1, size(obstacle%length)
-      if (obstacle%body(e) == without) cycle
+      if (obstacle%body(e) == without .or. (only > 0 .and. obstacle%body(e) /= only)) cycle
       d = difference(x, u, obstacle%end_node(2, e), obstacle%end_node(1, e))
-      y = difference(x, u, node, obstacle%end_node(1, e))
+      y = difference(x, u, node, obstacle%end_node(1, e)) + shift
       if ((y(2) < zero) .neqv. (y(2) < d(2))) then
         if (y(1)*abs(d(2)) < sign(one, d(2))*d(1)*y(2)) winding = winding + &
             merge(1, -1, d(2) > zero)

@@ -108,8 +108,6 @@ contains
     call refuse(table, 'LOAD_BODY_Z', 'models are plane')
     call refuse(table, 'DAMPING_GLOBAL', '')
     call refuse(table, 'DAMPING_PART_STIFFNESS', '')
-    call refuse(table, 'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE', &
-        'name the two bodies with *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE')
     call refuse(table, 'CONTACT_AUTOMATIC_SURFACE_TO_SURFACE', &
         'plane models take *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE')
     call refuse(table, 'DATABASE_HISTORY_SOLID', 'models are plane')

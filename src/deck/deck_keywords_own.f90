@@ -41,7 +41,7 @@ contains
         '1 = start from the reactions of the last step')
     call add_card(table)
     call add_field(table, 'WSTORE', 'W10 =AUTO |AUTO|DENSE|', 'storage of W')
-    call add_field(table, 'FRAME', 'W10 =START |START|REF|MID|END|', &
+    call add_field(table, 'FRAME', 'W10 =START |START|REF|', &
         'normals of contact: start of the step, or reference geometry')
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
         'accepted penetration / segment length')

@@ -141,7 +141,7 @@ contains
 
   !> *BIPACT_CONTACT and *BIPACT_SOLVER.
   subroutine read_solver_options(deck, controls, cone, solver)
-    type(deck_t), intent(inout) :: deck
+    type(deck_t), intent(in) :: deck
     type(controls_t), intent(inout) :: controls
     type(cone_options_t), intent(inout) :: cone
     type(solver_options_t), intent(inout) :: solver
@@ -160,9 +160,6 @@ contains
       if (second > 0) then
         controls%penetration_tolerance = deck%real(second, 'PENTOL')
         controls%frame = deck%word(second, 'FRAME')
-        if (controls%frame == 'MID' .or. controls%frame == 'END') call deck%complain(second, &
-            'FRAME', 'FRAME '//trim(controls%frame)//' is not available in this version', &
-            'choose START or REF')
         controls%rotation_warning = deck%real(second, 'ROTWARN')
         controls%dump_first = deck%integer(second, 'DFIRST')
         controls%dump_last = max(controls%dump_first, deck%integer(second, 'DLAST'))
