@@ -45,7 +45,8 @@ contains
     if (archive%mode == archive_restore) contact%w_is_current = .false.
   end subroutine exchange_contact
 
-  !> Storage for an interface of n nodes, those that are carried, and the lists that go with it.
+  !> Storage for an interface of n nodes, those that are carried, and the lists that go with
+  !> it.
   subroutine size_interface(contact, n, carried)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n, carried

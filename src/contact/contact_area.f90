@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Forces on the nodes of a pairing for tables and fields, and the area that carries them: that
-!> of the boundary which something faces.
+!> Forces on the nodes of a pairing for tables and fields, and the area that carries them:
+!> that of the boundary which something faces.
 module contact_area
   use base_kinds, only: wp, zero, one, half
   use cone_types, only: contact_open
@@ -52,9 +52,9 @@ contains
     end do
   end subroutine find_all_areas
 
-  !> Area of every near node at X + U: the integral of its shape function over the part of its edges
-  !> that edges of the other side cover, times the thickness. Where nearly nothing covers a node
-  !> (a tip on a face), and at walls, half of the edges that face.
+  !> Area of every near node at X + U: the integral of its shape function over the part of its
+  !> edges that edges of the other side cover, times the thickness. Where nearly nothing
+  !> covers a node (a tip on a face), and at walls, half of the edges that face.
   subroutine find_areas(model, pairing, u)
     type(model_t), intent(in) :: model
     class(pairing_t), intent(inout) :: pairing
@@ -111,8 +111,8 @@ contains
     end do
   end function thickness_of
 
-  !> Parts of edge e, in its local coordinate, that edges of the other side cover: those that face
-  !> it within half an edge.
+  !> Parts of edge e, in its local coordinate, that edges of the other side cover: those that
+  !> face it within half an edge.
   subroutine covering(own, other, e, x, u, low, high, n)
     type(surface_t), intent(in) :: own, other
     integer, intent(in) :: e

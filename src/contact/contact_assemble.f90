@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rows of a step, of all pairings: those at its start, and those that its solved end shows
-!> to be missing.
+!> The rows of a step, of all pairings: those at its start, and those that its solved end
+!> shows to be missing.
 module contact_assemble
   use base_kinds, only: wp, zero, one
   use contact_features, only: smooth_angle
@@ -19,8 +19,8 @@ module contact_assemble
 contains
 
   !> Rows at displacement u (2, nodes) for the free motion x_free (2, m) of the interface. W
-  !> stays where their geometry is that of the last step. Rows with an allowance that pushed in
-  !> the last step are among them from the start.
+  !> stays where their geometry is that of the last step. Rows with an allowance that pushed
+  !> in the last step are among them from the start.
   subroutine find_rows(model, contact, u, x_free)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -99,10 +99,10 @@ contains
     call swap_rows(contact%spare, contact%left)
   end subroutine take_marked
 
-  !> After a solve with force (2, m) on the interface: spare rows that are below their allowance
-  !> come first; where there is none, nodes that are too deep at the end of the step, and rows
-  !> whose frames have turned too much. Bodies that only pass turn too: acting or not, the end
-  !> is looked at. is_complete: nothing was missing.
+  !> After a solve with force (2, m) on the interface: spare rows that are below their
+  !> allowance come first; where there is none, nodes that are too deep at the end of the
+  !> step, and rows whose frames have turned too much. Bodies that only pass turn too:
+  !> acting or not, the end is looked at. is_complete: nothing was missing.
   subroutine add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Condensation to the contacts: u = W r + q with W = H S^-1 H', where S is the Schur complement
-!> of the effective matrix on the interface nodes (they come last in the elimination).
+!> Condensation to the contacts: u = W r + q with W = H S^-1 H', where S is the Schur
+!> complement of the effective matrix on the interface nodes (they come last in the
+!> elimination).
 module contact_condense
   use base_kinds, only: wp, zero, one
   use contact_rows, only: rows_t, row_of_h

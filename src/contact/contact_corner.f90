@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Directions at a convex corner: those that it has in common with a node before it, and which
-!> of them is the normal of their row. The space outside is a union of half-planes, so that the
-!> motion of the node decides.
+!> Directions at a convex corner: those that it has in common with a node before it, and
+!> which of them is the normal of their row. The space outside is a union of half-planes, so
+!> that the motion of the node decides.
 module contact_corner
   use base_kinds, only: wp, zero, one
   use contact_features, only: cone_of_node_t
@@ -30,7 +30,8 @@ contains
   end subroutine common_directions
 
   !> A node beside the corner, clear of it by more than `enough` at both ends of its free
-  !> motion f in a direction of the corner's cone that is none of the node's: it meets nothing.
+  !> motion f in a direction of the corner's cone that is none of the node's: it meets
+  !> nothing.
   pure logical function is_beside(middle, half_width, low, high, y, f, enough)
     real(wp), intent(in) :: middle(2), half_width, low, high, y(2), f(2), enough
     real(wp) :: d(2)

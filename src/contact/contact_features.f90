@@ -15,9 +15,9 @@ module contact_features
   real(wp), parameter, public :: facing_angle = 30.0_wp*degree
   !> A node this share of an edge beyond its end still belongs to it.
   real(wp), parameter, public :: end_tolerance = 1.0e-8_wp
-  !> A normal nearer than this to that of the reference is taken to be it: it would open a gap of
-  !> less than 1e-10 of the slip, which is below what a step accepts (PENTOL), and round-off of
-  !> displacements would otherwise make W anew in every step.
+  !> A normal nearer than this to that of the reference is taken to be it: it would open a gap
+  !> of less than 1e-10 of the slip, which is below what a step accepts (PENTOL), and
+  !> round-off of displacements would otherwise make W anew in every step.
   real(wp), parameter :: same_normal = 1.0e-10_wp
 
   !> Directions in which the body ends at a node: between two angles about a middle.
@@ -137,8 +137,9 @@ contains
     gap_to_place = dot_product(normal, d) + dot_product(normal, e)
   end function gap_to_place
 
-  !> Cone of row k of the nodes of a surface: the directions between the normals of the boundary
-  !> before and after it; where the boundary is smooth or reflex the mean normal alone.
+  !> Cone of row k of the nodes of a surface: the directions between the normals of the
+  !> boundary before and after it; where the boundary is smooth or reflex the mean normal
+  !> alone.
   pure subroutine cone_of_node(surface, k, x, u, is_reference, cone)
     type(surface_t), intent(in) :: surface
     integer, intent(in) :: k

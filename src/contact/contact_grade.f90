@@ -22,8 +22,8 @@ module contact_grade
 
 contains
 
-  !> Grade and allowance of a place of row k of the nodes of `own`. finer: the side whose nodes
-  !> are exact, by the deck (finer_auto: by their sizes).
+  !> Grade and allowance of a place of row k of the nodes of `own`. finer: the side whose
+  !> nodes are exact, by the deck (finer_auto: by their sizes).
   pure subroutine grade_place(own, obstacle, k, finer, cone, place)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k, finer
@@ -55,8 +55,8 @@ contains
     wins_tie = own%part_id(maxval(own%node_edge(:, k))) <= obstacle%part_id(place%edge)
   end function wins_tie
 
-  !> A corner whose own face lies on the edge, no shorter than the edge: the finer nodes of the
-  !> other side stand within reach of it.
+  !> A corner whose own face lies on the edge, no shorter than the edge: the finer nodes of
+  !> the other side stand within reach of it.
   pure logical function lies_flat(own, k, place, cone)
     type(surface_t), intent(in) :: own
     integer, intent(in) :: k
@@ -71,10 +71,11 @@ contains
     end do
   end function lies_flat
 
-  !> Two nodes that meet each other: the more convex one stays, then that of the shorter edges,
-  !> then SURFA's; its normal is the mean of the two, so that a mirrored scene is mirrored. The
-  !> other keeps an allowance. Of several places of a node the most opposite one counts. The
-  !> first n_first places are of side 1, sorted by node, the others of side 2.
+  !> Two nodes that meet each other: the more convex one stays, then that of the shorter
+  !> edges, then SURFA's; its normal is the mean of the two, so that a mirrored scene is
+  !> mirrored. The other keeps an allowance. Of several places of a node the most opposite
+  !> one counts. The first n_first places are of side 1, sorted by node, the others of side
+  !> 2.
   pure subroutine settle_twins(side, is_self, x, u, place, n_first, n)
     type(surface_t), intent(in) :: side(2)
     logical, intent(in) :: is_self
@@ -96,7 +97,8 @@ contains
     end do
   end subroutine settle_twins
 
-  !> Are places a and b twins, and is no other place of their two nodes more opposite to either?
+  !> Are places a and b twins, and is no other place of their two nodes more opposite to
+  !> either?
   pure logical function is_best_twin(side_a, side_b, place, a, b)
     type(surface_t), intent(in) :: side_a, side_b
     type(place_t), intent(in) :: place(:)
@@ -150,7 +152,8 @@ contains
     end if
   end function vertex_met
 
-  !> The first place of a node among those from low to high, which are sorted by node; 0 = none.
+  !> The first place of a node among those from low to high, which are sorted by node; 0 =
+  !> none.
   pure integer function first_place_of(place, low, high, node)
     type(place_t), intent(in) :: place(:)
     integer, intent(in) :: low, high, node

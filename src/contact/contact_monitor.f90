@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The monitor of overlap: what it finds in bodies that overlap is told as a warning or ends the
-!> run. It asks the boundaries, not the rows.
+!> The monitor of overlap: what it finds in bodies that overlap is told as a warning or ends
+!> the run. It asks the boundaries, not the rows.
 module contact_monitor
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, status_numerical, status_deck
@@ -107,8 +107,8 @@ contains
     end associate
   end function place_of
 
-  !> Bodies must not overlap when their contact begins, but for the digits of the deck: an error
-  !> at t = 0, a failure at a birth.
+  !> Bodies must not overlap when their contact begins, but for the digits of the deck: an
+  !> error at t = 0, a failure at a birth.
   subroutine check_start(model, contact, p, u, cycle, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact

@@ -32,9 +32,9 @@ module contact_near
 
 contains
 
-  !> Lists for every node of `own` the edges of the obstacle that are nearer than reach and may
-  !> come to face it. distance [L]: the smallest of all that is not listed; turned: some edge is
-  !> near but does not face, so that turning may bring it on.
+  !> Lists for every node of `own` the edges of the obstacle that are nearer than reach and
+  !> may come to face it. distance [L]: the smallest of all that is not listed; turned: some
+  !> edge is near but does not face, so that turning may bring it on.
   subroutine list_near(own, obstacle, tree, x, u, reach, may_share, leaves_out, near, &
       distance, turned)
     type(surface_t), intent(in) :: own, obstacle
@@ -107,8 +107,8 @@ contains
     near%first(near%n + 1) = start + size(edges)
   end subroutine add_node
 
-  !> Drops the edges that do not belong to the obstacle, and those of parts that the part of a node
-  !> does not touch.
+  !> Drops the edges that do not belong to the obstacle, and those of parts that the part of a
+  !> node does not touch.
   pure subroutine drop_left_out(own, obstacle, k, leaves_out, found, n)
     type(surface_t), intent(in) :: own, obstacle
     integer, intent(in) :: k
@@ -161,8 +161,8 @@ contains
     n = normal_between(x, u, surface%end_node(1, edge), surface%end_node(2, edge), .false.)
   end function normal_of
 
-  !> A sharp tip may face a blunt one though neither of its flanks does: the edge before such a
-  !> vertex stands for it.
+  !> A sharp tip may face a blunt one though neither of its flanks does: the edge before
+  !> such a vertex stands for it.
   pure logical function vertex_faces(obstacle, edge, x, u, cone)
     type(surface_t), intent(in) :: obstacle
     integer, intent(in) :: edge
@@ -199,6 +199,7 @@ contains
     end do
   end subroutine keep_memory
 
+  !> Edges on the longest list of a node.
   pure integer function longest_list(near)
     type(near_t), intent(in) :: near
     integer :: i

@@ -1,19 +1,22 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The pairing NODE: nodes of both sides are watched against the edges of the other. Within one
-!> surface of several bodies (single surface) every node is watched against all other edges.
+!> The pairing NODE: nodes of both sides are watched against the edges of the other. Within
+!> one surface of several bodies (single surface) every node is watched against all other
+!> edges.
 module contact_node
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
-  use contact_features, only: cone_of_node_t, cone_of_node, gap_to_place, smooth_angle
+  use contact_facing, only: mark_near, mark_facing
+  use contact_features, only: gap_to_place, smooth_angle
   use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
-  use contact_overlap, only: true_gap, confirm_inside, open_gap, update_front, deepest_node, &
-      deepest_inner_point, deepest_crossing
+  use contact_overlap, only: true_gap, look_again, open_gap, update_front
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
   use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
-  use contact_surface, only: surface_t
+  use contact_surface, only: surface_t, shortest_edge_at
   use contact_tree, only: tree_t, build_tree, refit_tree
+  use contact_whole, only: deepest_node, deepest_inner_point, deepest_crossing, &
+      deepest_before_open, accepted_overlap
   use model_data, only: model_t
   implicit none
   private
@@ -41,10 +44,6 @@ module contact_node
 
   !> A late row is one whose gap at the end of the step is below this many allowances.
   real(wp), parameter :: too_deep = 1.5_wp
-  !> Shallower nodes are inside where the listed edges say so.
-  real(wp), parameter :: sure = 5.0e-3_wp
-  !> Edges: how far outside a node its own body is asked for.
-  real(wp), parameter :: outward = 1.0e-3_wp
 
 contains
 
@@ -110,46 +109,18 @@ contains
     end do
   end subroutine place_trees
 
-  !> Near nodes and the nodes of their edges, with one more edge on either side, so that sliding
-  !> does not outgrow the interface at once. Beyond a convex corner the next edge has no rows:
-  !> its far node is carried along with the corner.
+  !> The near nodes of both sides and the nodes of their edges.
   subroutine node_mark_interface(this, model, taken, carrier)
     class(pairing_node_t), intent(in) :: this
     type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
     integer, intent(inout) :: carrier(:)
-    integer :: i, j, s, side, next
-    do side = 1, merge(1, 2, this%is_self)
-      associate (near => this%near(side), obstacle => this%side(facing_side(this, side)))
-        taken(this%side(side)%node(near%node(:near%n))) = .true.
-        do i = 1, near%n
-          do j = near%first(i), near%first(i + 1) - 1
-            taken(obstacle%end_node(:, near%edge(j))) = .true.
-            do s = 1, 2
-              next = obstacle%neighbour(s, near%edge(j))
-              if (next == 0) cycle
-              if (is_sharp(obstacle, near%edge(j), next, s)) then
-                carrier(obstacle%end_node(s, next)) = obstacle%end_node(s, near%edge(j))
-              else
-                taken(obstacle%end_node(:, next)) = .true.
-              end if
-            end do
-          end do
-        end do
-      end associate
+    integer :: s
+    do s = 1, merge(1, 2, this%is_self)
+      call mark_near(this%side(s), this%side(facing_side(this, s)), this%near(s), taken, &
+          carrier)
     end do
   end subroutine node_mark_interface
-
-  !> Is the boundary convex by more than 60 degrees between an edge and that before it (s = 1)
-  !> or behind it (s = 2)?
-  pure logical function is_sharp(surface, edge, next, s)
-    type(surface_t), intent(in) :: surface
-    integer, intent(in) :: edge, next, s
-    associate (a => surface%normal(:, edge), b => surface%normal(:, next))
-      is_sharp = dot_product(a, b) < half .and. &
-          (a(1)*b(2) - a(2)*b(1))*merge(one, -one, s == 2) > zero
-    end associate
-  end function is_sharp
 
   !> Nodes of edges in front of which, along their normal and within their width, some part of
   !> the other surface stands.
@@ -162,30 +133,6 @@ contains
       call mark_facing(model, this%side(s), this%side(facing_side(this, s)), taken)
     end do
   end subroutine node_mark_contact_nodes
-
-  pure subroutine mark_facing(model, surface, other, taken)
-    type(model_t), intent(in) :: model
-    type(surface_t), intent(in) :: surface, other
-    logical, intent(inout) :: taken(:)
-    real(wp) :: d(2), along(2), height(2)
-    integer :: e, f, s
-    do e = 1, size(surface%length)
-      if (.not. surface%is_listed(e)) cycle
-      do f = 1, size(other%length)
-        if (.not. other%is_listed(f)) cycle
-        if (dot_product(surface%normal(:, e), other%normal(:, f)) > -0.05_wp) cycle
-        do s = 1, 2
-          d = model%x(:, other%end_node(s, f)) - model%x(:, surface%end_node(1, e))
-          along(s) = surface%normal(1, e)*d(2) - surface%normal(2, e)*d(1)
-          height(s) = dot_product(surface%normal(:, e), d)
-        end do
-        if (maxval(height) < -1.0e-6_wp*surface%length(e)) cycle
-        if (maxval(along) <= 1.0e-6_wp*surface%length(e)) cycle
-        if (minval(along) >= (1.0_wp - 1.0e-6_wp)*surface%length(e)) cycle
-        taken(surface%end_node(:, e)) = .true.
-      end do
-    end do
-  end subroutine mark_facing
 
   subroutine node_append_rows(this, model, u, free, rows, spare)
     class(pairing_node_t), intent(inout) :: this
@@ -275,7 +222,8 @@ contains
       if (.not. obstacle%is_closed .or. near%distance(i) > -huge(one)) return
       call true_gap(obstacle, near%edge(near%first(i):near%first(i + 1) - 1), x, u, &
           this%side(s)%node(near%node(i)), gap, edge)
-      if (gap < zero) call look_again(this, x, u, s, near%node(i), gap, edge)
+      if (gap < zero) call look_again(this%side(s), obstacle, this%is_self, near%node(i), x, &
+          u, gap, edge)
       near%distance(i) = gap
     end associate
   end subroutine find_distance
@@ -350,8 +298,8 @@ contains
     if (place%is_second) kind_of = row_second
   end function kind_of
 
-  !> Nodes that are deeper at the end of the step than what they may: their places there, as new
-  !> rows or as new frames of the rows they have.
+  !> Nodes that are deeper at the end of the step than what they may: their places there, as
+  !> new rows or as new frames of the rows they have.
   subroutine node_find_late(this, model, u0, u1, rows, late, n)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
@@ -398,8 +346,8 @@ contains
         if (near%front(i) == is_behind) cycle
         associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
           call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
-          if (gap < -least_allowance(own, obstacle, near%node(i), edge)) then
-            call look_again(this, model%x, u, s, near%node(i), gap, edge)
+          if (gap < -least_allowance(own, obstacle, near%node(i))) then
+            call look_again(own, obstacle, this%is_self, near%node(i), model%x, u, gap, edge)
           else
             gap = max(gap, tiny(one))
           end if
@@ -425,11 +373,11 @@ contains
   end function view_of_end
 
   !> No node may be less deep than this and still need a row [L].
-  pure real(wp) function least_allowance(own, obstacle, k, edge)
+  pure real(wp) function least_allowance(own, obstacle, k)
     type(surface_t), intent(in) :: own, obstacle
-    integer, intent(in) :: k, edge
+    integer, intent(in) :: k
     least_allowance = too_deep*share_at_corner &
-        *min(obstacle%shortest, obstacle%length(edge), shortest_of(own, k, obstacle%shortest))
+        *min(obstacle%shortest, shortest_edge_at(own, k, obstacle%shortest))
   end function least_allowance
 
   !> A place at the end of the step against the rows of its node.
@@ -483,7 +431,8 @@ contains
           associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
             if (obstacle%is_closed) then
               call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
-              if (gap < zero) call look_again(this, model%x, u, s, near%node(i), gap, edge)
+              if (gap < zero) call look_again(own, obstacle, this%is_self, near%node(i), &
+                  model%x, u, gap, edge)
             else
               call open_gap(own, obstacle, near%node(i), list, model%x, u, gap, edge)
               if (near%front(i) == is_behind) gap = huge(one)
@@ -493,61 +442,15 @@ contains
           if (.not. obstacle%is_closed) near%distance(i) = -huge(one)
           if (edge == 0) cycle
           this%sums%smallest_gap = min(this%sums%smallest_gap, gap)
-          if (allocated(this%nodal)) call note_gap(this, s, near%node(i), gap)
+          if (allocated(this%nodal)) &
+              this%nodal%gap(this%nodal%first(s) + near%node(i)) = min(gap, no_gap)
           if (gap < zero) call note_overlap(overlap, -gap, min(obstacle%length(edge), &
-              shortest_of(own, near%node(i), obstacle%length(edge))), &
+              shortest_edge_at(own, near%node(i), obstacle%length(edge))), &
               own%node(near%node(i)), obstacle%part_id(edge), .false.)
         end do
       end associate
     end do
   end subroutine node_measure
-
-  !> A deep node is looked at with all edges of a closed obstacle: those on the list are only
-  !> those that may face it, and the far side of a thin body may be among them.
-  pure subroutine look_again(this, x, u, s, k, gap, edge)
-    class(pairing_node_t), intent(in) :: this
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
-    integer, intent(in) :: s, k
-    real(wp), intent(inout) :: gap
-    integer, intent(inout) :: edge
-    type(cone_of_node_t) :: cone
-    real(wp) :: depth
-    logical :: is_inside
-    integer :: body, other
-    associate (own => this%side(s), obstacle => this%side(facing_side(this, s)))
-      if (-gap < sure*obstacle%length(edge) .or. .not. obstacle%is_closed) return
-      body = 0
-      if (this%is_self) body = own%body(maxval(own%node_edge(:, k)))
-      if (body == obstacle%body(edge)) then
-        ! Of its own body: just outside the node is its inside again, where it closes on itself.
-        call cone_of_node(own, k, x, u, .false., cone)
-        call confirm_inside(obstacle, x, u, own%node(k), outward*own%shortest*cone%middle, &
-            body, 0, is_inside, depth, other)
-        if (.not. is_inside) gap = -gap
-      else
-        call confirm_inside(obstacle, x, u, own%node(k), [zero, zero], 0, body, is_inside, &
-            depth, edge)
-        gap = merge(-depth, depth, is_inside)
-      end if
-    end associate
-  end subroutine look_again
-
-  pure subroutine note_gap(this, s, k, gap)
-    type(pairing_node_t), intent(inout) :: this
-    integer, intent(in) :: s, k
-    real(wp), intent(in) :: gap
-    if (gap >= no_gap) return
-    this%nodal%gap(this%nodal%first(s) + k) = gap
-  end subroutine note_gap
-
-  !> The shortest edge of the boundary at a node; that given where there is none.
-  pure real(wp) function shortest_of(own, k, length)
-    type(surface_t), intent(in) :: own
-    integer, intent(in) :: k
-    real(wp), intent(in) :: length
-    shortest_of = length
-    if (all(own%chain(:, k) > 0)) shortest_of = minval(own%chain_length(:, k))
-  end function shortest_of
 
   !> All nodes and edges of closed sides; of open ones what stands just behind them.
   subroutine node_measure_whole(this, model, u, overlap, accepted)
@@ -568,7 +471,8 @@ contains
         if (.not. found) call deepest_inner_point(this%side(s), this%side(t), this%tree(t), &
             model%x, u, this%is_self, this%leaves_out, overlap)
       else if (.not. this%is_born) then
-        call deepest_before_open(this, model, s, t, u, overlap)
+        call deepest_before_open(this%side(s), this%side(t), this%near(s), model%x, u, &
+            overlap)
       end if
     end do
     if (.not. found .and. this%side(1)%is_closed .and. &
@@ -576,48 +480,8 @@ contains
         this%side(facing_side(this, 1)), &
         this%tree(facing_side(this, 1)), model%x, u, this%is_self, &
         this%leaves_out, overlap)
-    accepted = accepted_overlap(this, model%x, u)
+    accepted = accepted_overlap(this%side, this%penetration_tolerance, model%x, u)
   end subroutine node_measure_whole
-
-  !> Nodes of side s just behind the edges of the open side t.
-  subroutine deepest_before_open(this, model, s, t, u, overlap)
-    type(pairing_node_t), intent(in) :: this
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: s, t
-    real(wp), intent(in), contiguous :: u(:, :)
-    type(overlap_t), intent(inout) :: overlap
-    real(wp) :: gap
-    integer :: i, edge
-    associate (near => this%near(s), own => this%side(s), obstacle => this%side(t))
-      do i = 1, near%n
-        call open_gap(own, obstacle, near%node(i), &
-            near%edge(near%first(i):near%first(i + 1) - 1), model%x, u, gap, edge)
-        if (gap < zero) call note_overlap(overlap, -gap, obstacle%length(edge), &
-            own%node(near%node(i)), obstacle%part_id(edge), .false.)
-      end do
-    end associate
-  end subroutine deepest_before_open
-
-  !> What may overlap at the start: the digits of a deck do not give a touch better [L]. Fields
-  !> of ten columns hold seven digits of a coordinate.
-  pure real(wp) function accepted_overlap(this, x, u)
-    type(pairing_node_t), intent(in) :: this
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
-    real(wp) :: low(2), high(2), p(2), shortest
-    integer :: s, k
-    low = huge(one)
-    high = -huge(one)
-    do s = 1, 2
-      do k = 1, size(this%side(s)%node)
-        p = x(:, this%side(s)%node(k)) + u(:, this%side(s)%node(k))
-        low = min(low, p)
-        high = max(high, p)
-      end do
-    end do
-    shortest = min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest)
-    accepted_overlap = min(1.0e-3_wp*shortest, max(this%penetration_tolerance*shortest, &
-        1.0e-7_wp*half*sqrt(sum((high - low)**2))))
-  end function accepted_overlap
 
   subroutine node_exchange(this, archive)
     class(pairing_node_t), intent(inout) :: this

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a pairing is: one contact card, or one wall, and how it finds rows. Every pairing gives
-!> rows of the same kind; nothing beyond this layer knows which made them.
+!> What a pairing is: one contact card, or one wall, and how it finds rows. Every pairing
+!> gives rows of the same kind; nothing beyond this layer knows which made them.
 module contact_pairing
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero
@@ -59,8 +59,8 @@ module contact_pairing
     logical :: is_crossing = .false.!< of edges; no node stands inside
   end type overlap_t
 
-  !> A row to be added when a solved step has shown that it is missing, or whose frame has turned
-  !> too much.
+  !> A row to be added when a solved step has shown that it is missing, or whose frame has
+  !> turned too much.
   type, public :: late_t
     integer :: row = 0              !< whose frame is replaced; 0: a new row
     integer :: key(4) = 0
@@ -84,8 +84,8 @@ module contact_pairing
     logical :: is_energy_safe = .true.     !< the purse applies
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length
     type(surface_t) :: side(2)
-    !> Search: the displacements when it was last done, and the smallest distance of what is not
-    !> on the list. Nothing else can touch while the bodies have moved less than that.
+    !> Search: the displacements when it was last done, and the smallest distance of what is
+    !> not on the list. Nothing else can touch while the bodies have moved less than that.
     real(wp), allocatable :: reference_1(:, :), reference_2(:, :)
     real(wp) :: safe_distance = -1.0_wp    !< [L]; < 0: never searched
     real(wp) :: moved = zero               !< bound of the relative motion since the search [L]
@@ -120,8 +120,8 @@ module contact_pairing
       real(wp), intent(in), contiguous :: u(:, :)
     real(wp), intent(in) :: reach
     end subroutine list_i
-    !> Marks nodes of the model that listed rows may involve. carrier (nodes): of a node that is
-    !> only looked at, the one it moves along with.
+    !> Marks nodes of the model that listed rows may involve. carrier (nodes): of a node
+    !> that is only looked at, the one it moves along with.
     subroutine interface_i(this, model, taken, carrier)
       import :: pairing_t, model_t
       class(pairing_t), intent(in) :: this
@@ -136,8 +136,8 @@ module contact_pairing
       type(model_t), intent(in) :: model
       logical, intent(inout) :: taken(:)
     end subroutine mark_i
-    !> Rows at the start of a step of free motion free (2, nodes) [L], which only interface nodes
-    !> have. spare: rows that hold only below their allowance.
+    !> Rows at the start of a step of free motion free (2, nodes) [L], which only interface
+    !> nodes have. spare: rows that hold only below their allowance.
     subroutine append_i(this, model, u, free, rows, spare)
       import :: pairing_t, model_t, rows_t, wp
       class(pairing_t), intent(inout) :: this

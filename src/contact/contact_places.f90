@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The places on an obstacle that a node faces: one for each local minimum of its distance from
-!> the boundary. Before a smooth boundary and at a convex corner there is one, in a notch two.
-!> The space outside a convex corner is a union of half-planes: one row, whose normal the free
-!> motion chooses; that in front of a reflex corner an intersection: both rows.
+!> The places on an obstacle that a node faces: one for each local minimum of its distance
+!> from the boundary. Before a smooth boundary and at a convex corner there is one, in a
+!> notch two. The space outside a convex corner is a union of half-planes: one row, whose
+!> normal the free motion chooses; that in front of a reflex corner an intersection: both
+!> rows.
 module contact_places
   use base_kinds, only: wp, zero, one, half
   use contact_corner, only: common_directions, is_beside, choose_normal, keep_edge_normal, &
@@ -188,7 +189,8 @@ contains
       vertex = obstacle%end_node(s, sight%edge(j))
       y = difference(x, u, own%node(k), vertex)
       if (y(1)**2 + y(2)**2 > view%reach**2) then
-        ! The side wall of a body holds nodes that stand on its top, however far the corner is.
+        ! The side wall of a body holds nodes that stand on its top, however far the corner
+        ! is.
         if (sight%at(other) == 0 .or. .not. sight%is_kept(j)) cycle
         if (.not. sight%is_kept(sight%at(other))) cycle
       end if
@@ -254,8 +256,8 @@ contains
         call add_vertex_place(node, vertex, sight%edge(first), n, gap, shorter, sight)
   end subroutine add_smooth_vertex
 
-  !> A convex corner: inside both half-planes the shallower edge holds; behind both ends, or at
-  !> the very end of one, the vertex.
+  !> A convex corner: inside both half-planes the shallower edge holds; behind both ends, or
+  !> at the very end of one, the vertex.
   subroutine judge_corner(own, obstacle, k, vertex, first, second, turn, shorter, y, f, view, &
       cone, sight)
     type(surface_t), intent(in) :: own, obstacle

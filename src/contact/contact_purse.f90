@@ -3,12 +3,13 @@
 !> the start of the step: c = g0 where that is positive, else c = beta g0, 0 <= beta <= 1. The
 !> work of the reactions of a step is
 !>   - sum r_n c - sum mu r_n |u_t| + sum e_a,
-!> so c > 0 takes energy, c = 0 is neutral (an overlap stays, but may not deepen), c < 0 gives
-!> r_n |c|. What is given must have been taken before in normal direction by the same card: then
-!> the total energy never exceeds what was put in, whatever rows, frames and edges come and go.
-!> With S = sum |g0| r_n over the overlaps the gain is beta S(beta), and S grows with beta
-!> (without friction: minus the slope of the least value of a quadratic program, which is
-!> concave in beta), so that gain(beta) <= beta S(1): one repeat is enough.
+!> so c > 0 takes energy, c = 0 is neutral (an overlap stays, but may not deepen), c < 0
+!> gives r_n |c|. What is given must have been taken before in normal direction by the same
+!> card: then the total energy never exceeds what was put in, whatever rows, frames and
+!> edges come and go. With S = sum |g0| r_n over the overlaps the gain is beta S(beta), and
+!> S grows with beta (without friction: minus the slope of the least value of a quadratic
+!> program, which is concave in beta), so that gain(beta) <= beta S(1): one repeat is
+!> enough.
 module contact_purse
   use base_kinds, only: wp, zero, one
   use contact_pairing, only: purse_t
@@ -37,8 +38,8 @@ contains
     end do
   end subroutine start_purses
 
-  !> beta for the rows as they are now, whatever those before them have asked for: 1, or 0 of a
-  !> purse that is shut.
+  !> beta for the rows as they are now, whatever those before them have asked for: 1, or 0
+  !> of a purse that is shut.
   pure subroutine open_purses(contact)
     type(contact_t), intent(inout) :: contact
     integer :: p

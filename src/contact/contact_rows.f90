@@ -27,19 +27,20 @@ module contact_rows
     real(wp), allocatable :: length(:)     !< of the edge [L]
     logical, allocatable :: is_rigid(:)    !< both sides constrained: W_nn = 0, only watched
     logical, allocatable :: is_marked(:)   !< to be moved to another list
-    ! Reactions (n, t) of this step and of the two solves before [F], displacement [L], status.
+    ! Reactions (n, t) of this step and of the two solves before [F], displacement [L],
+    ! status.
     real(wp), allocatable :: r(:, :), r_previous(:, :), r_older(:, :), u(:, :)
     integer, allocatable :: status(:)
   end type rows_t
 
-  !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall; late
-  !> rows come when the solved step has shown that they are missing.
+  !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall;
+  !> late rows come when the solved step has shown that they are missing.
   integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
       row_kinds = 4
 
-  public :: start_rows, add_row, copy_row, copy_rows, swap_rows, same_geometry, carry_reactions, &
-      take_reactions, comes_before, find_slots, relative_displacement, row_force, &
-      add_row_force, row_of_h
+  public :: start_rows, add_row, copy_row, copy_rows, swap_rows, same_geometry, &
+      carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, &
+      row_force, add_row_force, row_of_h
 
 contains
 
@@ -122,8 +123,8 @@ contains
     call move_alloc(longer, a)
   end subroutine size_integer
 
-  !> Adds a row: key, points and weights, normal, gap [L], mu, edge length [L], kind, allowance
-  !> [L]; no reaction yet.
+  !> Adds a row: key, points and weights, normal, gap [L], mu, edge length [L], kind,
+  !> allowance [L]; no reaction yet.
   pure subroutine add_row(rows, key, point, weight, normal, gap, mu, length, kind, allowance)
     type(rows_t), intent(inout) :: rows
     integer, intent(in) :: key(4), point(:), kind
@@ -183,9 +184,9 @@ contains
     end do
   end function same_geometry
 
-  !> Reactions of rows that were on the old list, by pairing, side, node and edge; a row that is
-  !> new on its node takes those of the old row there whose normal is nearest, as vectors. Both
-  !> lists are in the same order of pairings, sides and nodes.
+  !> Reactions of rows that were on the old list, by pairing, side, node and edge; a row
+  !> that is new on its node takes those of the old row there whose normal is nearest, as
+  !> vectors. Both lists are in the same order of pairings, sides and nodes.
   pure subroutine carry_reactions(old, rows)
     type(rows_t), intent(in) :: old
     type(rows_t), intent(inout) :: rows
@@ -268,6 +269,7 @@ contains
     end do
   end subroutine copy_rows
 
+  !> Does key a stand before key b, by its first entries that differ?
   pure logical function comes_before(a, b)
     integer, intent(in) :: a(:), b(:)
     integer :: k

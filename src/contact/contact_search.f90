@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> When to search. A search lists what is near and measures the distance of all else; while the
-!> bodies have moved less than that relative to each other, no search is due.
+!> When to search. A search lists what is near and measures the distance of all else; while
+!> the bodies have moved less than that relative to each other, no search is due.
 module contact_search
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
@@ -16,11 +16,13 @@ module contact_search
 
 contains
 
-  !> Lists for the step that ends at t1, at displacement u after a step of motion du and length
-  !> h; largest: of the motions du. A pairing is left alone before its birth and after its
-  !> death. new_interface tells that the interface had to grow: the matrix must be factored
-  !> again. Fails at bodies that overlap at their start, or have passed through each other.
-  subroutine update_lists(model, contact, u, du, v, largest, h, cycle, t1, new_interface, status)
+  !> Lists for the step that ends at t1, at displacement u after a step of motion du and
+  !> length h; largest: of the motions du. A pairing is left alone before its birth and
+  !> after its death. new_interface tells that the interface had to grow: the matrix must be
+  !> factored again. Fails at bodies that overlap at their start, or have passed through
+  !> each other.
+  subroutine update_lists(model, contact, u, du, v, largest, h, cycle, t1, new_interface, &
+      status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), du(:, :), v(:, :)
@@ -101,13 +103,13 @@ contains
         pack(carrier, carrier > 0)], [2, count(carrier > 0)], order=[2, 1])
   end subroutine use_lists
 
-  !> A search is due when something off the list may touch before the end of the coming step:
-  !> |c_A - c_B| + max|u - u_ref - c_A| + max|u - u_ref - c_B|, c = mean displacement of a side
-  !> since the search, bounds the relative motion (triangle inequality); it must stay below the
-  !> smallest distance found, with twice the motion of the last step kept for the coming one.
-  !> Where edges are near that do not face, they must not turn too much either. largest [L] is
-  !> the largest motion of a node in the last step: while twice its sum since the bound was last
-  !> evaluated leaves a margin, the bound itself need not be.
+  !> A search is due when something off the list may touch before the end of the coming
+  !> step: |c_A - c_B| + max|u - u_ref - c_A| + max|u - u_ref - c_B|, c = mean displacement
+  !> of a side since the search, bounds the relative motion (triangle inequality); it must
+  !> stay below the smallest distance found, with twice the motion of the last step kept for
+  !> the coming one. Where edges are near that do not face, they must not turn too much
+  !> either. largest [L] is the largest motion of a node in the last step: while twice its
+  !> sum since the bound was last evaluated leaves a margin, the bound itself need not be.
   subroutine test_list(pairing, u, largest, is_due)
     class(pairing_t), intent(inout) :: pairing
     real(wp), intent(in), contiguous :: u(:, :)
@@ -145,8 +147,8 @@ contains
     pairing%moved = moved
   end subroutine bound_motion
 
-  !> Lists anew, for the motion x of the step (2, nodes; largest [L] of a node), the pairings whose lists it has used up
-  !> before its end: then the step must be solved `again`.
+  !> Lists anew, for the motion x of the step (2, nodes; largest [L] of a node), the pairings
+  !> whose lists it has used up before its end: then the step must be solved `again`.
   subroutine relist_outrun(model, contact, u, x, largest, v, h, cycle, again, new_interface, &
       status)
     type(model_t), intent(in) :: model
@@ -243,13 +245,15 @@ contains
     do e = 1, size(surface%length)
       if (.not. surface%is_listed(e)) cycle
       associate (a => surface%end_node(1, e), b => surface%end_node(2, e))
-        d = (u(:, b) - reference(:, surface%index(b))) - (u(:, a) - reference(:, surface%index(a)))
+        d = (u(:, b) - reference(:, surface%index(b))) &
+            - (u(:, a) - reference(:, surface%index(a)))
         largest_turn = max(largest_turn, sqrt(d(1)**2 + d(2)**2)/surface%length(e))
       end associate
     end do
   end function largest_turn
 
-  !> What is nearer than this goes on the list: a mean edge, or four steps of the relative motion.
+  !> What is nearer than this goes on the list: a mean edge, or four steps of the relative
+  !> motion.
   pure real(wp) function listing_distance(pairing, du, v, h)
     class(pairing_t), intent(in) :: pairing
     real(wp), intent(in), contiguous :: du(:, :), v(:, :)

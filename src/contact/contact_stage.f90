@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact of one stage of a step, for every scheme: from the free motion of the interface to the
-!> reactions. It does not know the scheme: the stage has said what the motion means.
+!> Contact of one stage of a step, for every scheme: from the free motion of the interface to
+!> the reactions. It does not know the scheme: the stage has said what the motion means.
 module contact_stage
   use base_kinds, only: wp, zero, half, one
   use base_status, only: status_t, fail, failed, add_place, status_numerical
@@ -24,9 +24,9 @@ module contact_stage
 
 contains
 
-  !> Reactions for the free motion x_free (2, m) of the interface from displacement u (2, nodes)
-  !> at the start of the step; force (2, m) = H' r. largest [F L]: of the terms of the energy
-  !> ledger so far. acting is false when nothing touches, and then force is zero.
+  !> Reactions for the free motion x_free (2, m) of the interface from displacement u (2,
+  !> nodes) at the start of the step; force (2, m) = H' r. largest [F L]: of the terms of
+  !> the energy ledger so far. acting is false when nothing touches, and then force is zero.
   subroutine solve_contact(model, contact, u, x_free, largest, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -119,8 +119,8 @@ contains
     end associate
   end subroutine shift
 
-  !> The start: in the first solve of a step the last reactions, or those before them where forces
-  !> alternate; then those of the solve before.
+  !> The start: in the first solve of a step the last reactions, or those before them where
+  !> forces alternate; then those of the solve before.
   pure subroutine start_reactions(contact, is_first)
     type(contact_t), intent(inout) :: contact
     logical, intent(in) :: is_first
@@ -185,9 +185,9 @@ contains
   end subroutine find_reactions
 
   !> Corrects the reactions where W is known to fewer digits than the motion du (2, nodes),
-  !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the new
-  !> reactions, more the change of it; both (2, m) [F]. done: they meet the certificate as they
-  !> are.
+  !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the
+  !> new reactions, more the change of it; both (2, m) [F]. done: they meet the certificate
+  !> as they are.
   subroutine correct_contact(model, contact, du, force, more, done, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -255,9 +255,9 @@ contains
     gap_noise = 8.0_wp*epsilon(terms)*sqrt(terms)
   end function gap_noise
 
-  !> After the step of motion du to displacement u (2, nodes): u of every row, the certificate of
-  !> the reactions for it (to the round-off of gaps and motions, which nearly cancel at a touch),
-  !> true overlaps. Fails on what a scene must not do in silence.
+  !> After the step of motion du to displacement u (2, nodes): u of every row, the certificate
+  !> of the reactions for it (to the round-off of gaps and motions, which nearly cancel at a
+  !> touch), true overlaps. Fails on what a scene must not do in silence.
   subroutine settle_contact(model, contact, u, du, cycle, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The boundary of bodies as edges: the edges that belong to one element only, with the body on
-!> their left, so that the outward normal is on their right. A side of a contact is a part of
-!> that boundary; the turn of the boundary at a node is that of the whole.
+!> The boundary of bodies as edges: the edges that belong to one element only, with the body
+!> on their left, so that the outward normal is on their right. A side of a contact is a
+!> part of that boundary; the turn of the boundary at a node is that of the whole.
 module contact_surface
   use base_kinds, only: wp, zero, one, half
   use base_sort, only: sort_order
@@ -35,12 +35,12 @@ module contact_surface
     real(wp) :: shortest = huge(one)       !< edge [L]
   end type surface_t
 
-  public :: make_surface, edge_tangent, turn_between
+  public :: make_surface, edge_tangent, turn_between, shortest_edge_at
 
 contains
 
-  !> Surface of a side of a contact card: the exposed edges of parts, those whose nodes are all
-  !> in a node set, or the edges of a segment set; of parts that are listed, with kind
+  !> Surface of a side of a contact card: the exposed edges of parts, those whose nodes are
+  !> all in a node set, or the edges of a segment set; of parts that are listed, with kind
   !> side_parts. Lone nodes of a node set belong to it too.
   subroutine make_surface(model, kind, row, surface, parts)
     type(model_t), intent(in) :: model
@@ -245,6 +245,16 @@ contains
       root_of = root(root_of)
     end do
   end function root_of
+
+  !> The shortest edge of the boundary at row k of the nodes [L]; the length given where there
+  !> is no boundary.
+  pure real(wp) function shortest_edge_at(surface, k, length)
+    type(surface_t), intent(in) :: surface
+    integer, intent(in) :: k
+    real(wp), intent(in) :: length
+    shortest_edge_at = length
+    if (all(surface%chain(:, k) > 0)) shortest_edge_at = minval(surface%chain_length(:, k))
+  end function shortest_edge_at
 
   !> t = n turned by +90 degrees: along the edge.
   pure function edge_tangent(normal) result(t)

@@ -155,8 +155,8 @@ contains
     end do
   end subroutine edges_in_box
 
-  !> Distance [L] of point p from the nearest edge that is not to be left out, if it is less than
-  !> limit; limit otherwise. edge: which, 0 = none.
+  !> Distance [L] of point p from the nearest edge that is not to be left out, if it is less
+  !> than limit; limit otherwise. edge: which, 0 = none.
   pure subroutine distance_to_edges(tree, p, left_out, limit, distance, edge)
     type(tree_t), intent(in) :: tree
     logical, intent(in) :: left_out(:)
@@ -175,7 +175,8 @@ contains
       if (box_distance_2(tree, k, p) >= best) cycle
       if (tree%child(k) > 0) then
         stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
-        if (box_distance_2(tree, tree%child(k), p) < box_distance_2(tree, tree%child(k) + 1, p)) &
+        if (box_distance_2(tree, tree%child(k), p) < &
+            box_distance_2(tree, tree%child(k) + 1, p)) &
             stack(top + 1:top + 2) = [tree%child(k) + 1, tree%child(k)]
         top = top + 2
         cycle
@@ -194,8 +195,8 @@ contains
     if (edge == 0) distance = limit
   end subroutine distance_to_edges
 
-  !> How often the edges that are not left out wind round point p: by the crossings of the ray in
-  !> the direction of x (Shimrat 1962, with signs). 0 outside.
+  !> How often the edges that are not left out wind round point p: by the crossings of the ray
+  !> in the direction of x (Shimrat 1962, with signs). 0 outside.
   pure integer function winding_number(tree, p, left_out)
     type(tree_t), intent(in) :: tree
     logical, intent(in) :: left_out(:)

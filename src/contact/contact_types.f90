@@ -33,16 +33,16 @@ module contact_types
     type(rows_t), allocatable :: rows             !< of the step
     type(rows_t), allocatable :: spare            !< rows that hold only below their allowance
     type(rows_t), allocatable :: next, left, work_rows   !< rows being made
-    type(rows_t), allocatable :: before           !< of the step before, where a scheme needs them
+    type(rows_t), allocatable :: before           !< of the step before, if a scheme needs it
     type(late_t), allocatable :: late(:)          !< rows to be added
     integer :: late_rounds = 0                    !< of this step
     logical :: keeps_before = .false.
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
-    integer, allocatable :: carried(:, :)         !< (2, *) node, and the interface node it follows
-    !> (2, nodes) motion of the free step and displacement at the end of the step with contact,
-    !> right at interface nodes only [L]
+    integer, allocatable :: carried(:, :)         !< (2, *) node, interface node it follows
+    !> (2, nodes) motion of the free step and displacement at the end of the step with
+    !> contact, right at interface nodes only [L]
     real(wp), allocatable :: free(:, :), u_end(:, :)
     real(wp), allocatable :: x_end(:, :)          !< (2, m) motion of the interface [L]
     !> (2m, 2m) S^-1 of the interface, constrained dofs cleared [L/F]

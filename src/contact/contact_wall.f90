@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The pairing of a rigid plane wall: an analytic surface instead of edges, no degrees of freedom.
-!> Its rows have one point, the node's.
+!> The pairing of a rigid plane wall: an analytic surface instead of edges, no degrees of
+!> freedom. Its rows have one point, the node's.
 module contact_wall
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half

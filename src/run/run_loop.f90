@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The step loop.
 module run_loop
-  use assembly_forces, only: add_loads, largest_rotation, first_inverted, subtract_internal_force, &
-      subtract_damping_force
+  use assembly_forces, only: add_loads, largest_rotation, first_inverted, &
+      subtract_internal_force, subtract_damping_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
   use base_signal, only: stop_asked
@@ -167,7 +167,9 @@ contains
     real(wp), intent(in) :: force(:, :)
     integer :: k
     do k = 1, size(run%contact%interface_node)
-      run%b(:, run%contact%interface_node(k)) = run%b(:, run%contact%interface_node(k)) + force(:, k)
+      associate (i => run%contact%interface_node(k))
+        run%b(:, i) = run%b(:, i) + force(:, k)
+      end associate
     end do
   end subroutine add_interface_forces
 
@@ -380,8 +382,8 @@ contains
     call run%timers%enter(phase_other)
   end subroutine tell
 
-  !> True overlap of all bodies in contact: at output times that are not too close, and at the end.
-  !> It means something while elements are not inverted.
+  !> True overlap of all bodies in contact: at output times that are not too close, and at the
+  !> end. It means something while elements are not inverted.
   subroutine check_overlap(run, last, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: last

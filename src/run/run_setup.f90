@@ -103,8 +103,9 @@ contains
 
   !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
   !> loses digits that the ledger needs: each solve multiplies a momentum by 1 + eps times
-  !> stiffness/inertia, always with the same sign, for the factor is the same. Where that may grow
-  !> beyond the promise of the ledger within the run, each solve is followed by one correction.
+  !> stiffness/inertia, always with the same sign, for the factor is the same. Where that may
+  !> grow beyond the promise of the ledger within the run, each solve is followed by one
+  !> correction.
   subroutine plan_refinement(run)
     type(run_t), intent(inout) :: run
     !> Of a free body, measured: 1 to 2.4 for the momentum, twice that for the energy.
@@ -120,8 +121,8 @@ contains
         allocate (run%correction(2, run%system%n), run%b_kept(2, run%system%n))
   end subroutine plan_refinement
 
-  !> What contact must know of the scheme: whether forces of both ends of a step act (then rows are
-  !> kept for a step, and closing overlaps has no bound).
+  !> What contact must know of the scheme: whether forces of both ends of a step act (then
+  !> rows are kept for a step, and closing overlaps has no bound).
   subroutine set_contact_rule(run)
     type(run_t), intent(inout) :: run
     integer :: p
@@ -143,8 +144,8 @@ contains
         run%deck%place(run%contact%pairing(run%contact%searched)%item%record))
   end subroutine first_lists
 
-  !> Factor of the effective matrix, with the interface nodes last and their flexibility; again is
-  !> true when the interface has changed and the order must be found anew.
+  !> Factor of the effective matrix, with the interface nodes last and their flexibility;
+  !> again is true when the interface has changed and the order must be found anew.
   subroutine factor_matrix(run, again, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: again

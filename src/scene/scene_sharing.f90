@@ -13,9 +13,10 @@ module scene_sharing
 
 contains
 
-  !> A card whose sides have parts in common is one of a surface with itself, in which pairs that
-  !> do not stand on both sides are left out. Parts that two cards bring together at the same time
-  !> are an error, but for the card of all parts, which leaves to others what they name.
+  !> A card whose sides have parts in common is one of a surface with itself, in which pairs
+  !> that do not stand on both sides are left out. Parts that two cards bring together at the
+  !> same time are an error, but for the card of all parts, which leaves to others what they
+  !> name.
   subroutine share_parts(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
@@ -45,8 +46,8 @@ contains
     end do
   end subroutine share_parts
 
-  !> Which parts a card brings together. Cards of node and segment sets name boundaries, of which
-  !> two parts may have several.
+  !> Which parts a card brings together. Cards of node and segment sets name boundaries, of
+  !> which two parts may have several.
   pure subroutine pairs_of(model, card, pair)
     type(model_t), intent(in) :: model
     type(contact_card_t), intent(in) :: card
