@@ -294,19 +294,25 @@ def pressed_slider(mirror=False, mu=0.05):
 
 
 def deformed_edge():
-    """The block of pressed_slider and its mirror image: equal; it stays on top of the plate, but
-    for the allowance, though the plate is 0.3 of an edge below its reference place."""
+    """The block of pressed_slider and its mirror image: equal; it stays on top of the plate,
+    though that is 0.3 of an edge below its reference place: 1.5 allowances of 1e-3 (from there on
+    a row is set anew) and what a node slips on an edge that turns in a step."""
     mirrored("pressed slider", pressed_slider)
     mirrored("pressed slider, no friction", lambda mirror: pressed_slider(mirror, 0.0))
     for mirror in (False, True):
         scene = pressed_slider(mirror)
         folder, x = run("pressed", scene)
         _, share = overlaps(x[::5], *(b.rings for b in scene.bodies))
-        at_most(share.max(), 1.5e-3, "pressed slider: overlap")
+        face = x[:, [n - 1 for n in scene.bodies[1].row(2)]]
+        slope = np.diff(face, axis=1)
+        turn = np.abs(np.diff(np.arctan2(slope[..., 1], slope[..., 0]), axis=0)) % pi
+        turn = np.minimum(turn, pi - turn).max()
+        slip = np.abs(np.diff(x[:, :4, 0], axis=0)).max() / (0.31 / 3)
+        show("slip / edge %.3g, turn %.3g in a step" % (slip, turn))
+        at_most(share.max(), 1.5e-3 + slip * turn, "pressed slider: overlap")
         kept("pressed slider", folder)
         check(counted(folder, "contact searches") > 1, "it was listed more than once")
-        top = x[:, [n - 1 for n in scene.bodies[1].row(2)], 1]
-        at_most(top.min() / (1.5 / 14), -0.1, "the plate is pressed in / its edge")
+        at_most(face[..., 1].min() / (1.5 / 14), -0.1, "the plate is pressed in / its edge")
         moved = x[-1, 0, 0] - x[0, 0, 0]
         within(abs(moved), 0.3, 2.0, "way of the block")
 
