@@ -107,7 +107,7 @@ def deepest_of(one, two):
 
 def passages(points, loop):
     """Passages of points through edges from row to row: (row, node, edge, +1 in or -1 out,
-    place on the edge as a fraction)."""
+    place on the edge as a fraction, when within the step)."""
     a, d = edges_of(loop)
     y = points[:, :, None] - a[:, None]
     side = cross(d[:, None], y)
@@ -120,12 +120,13 @@ def passages(points, loop):
     hit = (place >= 0.0) & (place <= 1.0)
     order = np.lexsort((f[hit], row[hit], node[hit]))
     way = np.where(s1 > 0.0, 1, -1)
-    return tuple(x[hit][order] for x in (row, node, edge, way, place))
+    return tuple(x[hit][order] for x in (row, node, edge, way, place, f))
 
 
 def through(points, loop):
     """Nodes that enter a body and leave it through its far side: [(row, node)]. Passing across
-    a tip is left out: entry and exit are more than a tenth of the shortest edge apart."""
+    a tip is left out: entry and exit are more than a tenth of the shortest edge apart. So is
+    sliding round a tip: it was deeper than a hundredth of that edge in between."""
     rows = near_rows(points, loop)
     if len(rows) < 2:
         return []
@@ -135,16 +136,30 @@ def through(points, loop):
         a, d = edges_of(body[0])
         least = 0.1 * mesh.edge_lengths(loop[0]).min()
         entry = {}
-        for row, node, edge, way, place in zip(*passages(part, body)):
+        for row, node, edge, way, place, when in zip(*passages(part, body)):
             if way > 0:
-                entry[node] = (edge, place)
+                entry[node] = (row + when, edge, place)
             elif node in entry:
-                e, p = entry.pop(node)
+                start, e, p = entry.pop(node)
                 gone = a[edge] + place * d[edge] - a[e] - p * d[e]
                 opposite = d[e] @ d[edge] < 0.0
-                if opposite and np.hypot(*gone) > least:
+                deep = depth_between(part[:, node], body, start, row + when) > 0.1 * least
+                if deep and opposite and np.hypot(*gone) > least:
                     found.append((int(r[row]) + 1, int(node)))
     return found
+
+
+def depth_between(point, loop, start, end):
+    """Largest distance of a point from an outline between two times, in rows: nine of them."""
+    times = np.linspace(start, end, 11)[1:-1]
+    row = np.minimum(times.astype(int), len(point) - 2)
+    f = times - row
+    point = (1.0 - f)[:, None] * point[row] + f[:, None] * point[row + 1]
+    loop = (1.0 - f)[:, None, None] * loop[row] + f[:, None, None] * loop[row + 1]
+    a, d = edges_of(loop)
+    y = point[:, None] - a
+    s = np.clip((y * d).sum(-1) / np.maximum((d * d).sum(-1), 1.0e-300), 0.0, 1.0)
+    return np.hypot(*np.moveaxis(y - s[..., None] * d, -1, 0)).min(axis=1).max()
 
 
 def below_wall(loop, wall):
