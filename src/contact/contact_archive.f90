@@ -42,7 +42,9 @@ contains
     do p = 1, size(contact%pairing)
       call exchange_pairing(archive, contact%pairing(p)%item)
     end do
-    if (archive%mode == archive_restore) contact%w_is_current = .false.
+    if (archive%mode /= archive_restore) return
+    contact%w_is_current = .false.
+    contact%rows_are_plain = .false.
   end subroutine exchange_contact
 
   !> Storage for an interface of n nodes, those that are carried, and the lists that go with

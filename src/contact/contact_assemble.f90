@@ -26,16 +26,45 @@ contains
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), x_free(:, :)
     integer :: p, k
+    logical :: is_same, pairing_is_same
     do k = 1, size(contact%interface_node)
       contact%free(:, contact%interface_node(k)) = x_free(:, k)
     end do
     contact%late_rounds = 0
+    is_same = contact%rows_are_plain
+    do p = 1, size(contact%pairing)
+      if (.not. (contact%acts(p) .and. contact%pairing(p)%item%listed > 0)) cycle
+      call contact%pairing(p)%item%find_places(model, u, contact%free, pairing_is_same)
+      is_same = is_same .and. pairing_is_same
+    end do
+    if (is_same) call renew_gaps(contact, is_same)
+    if (.not. is_same) call make_rows(contact)
+  end subroutine find_rows
+
+  !> The rows of the last step with new gaps, where that is all that has changed.
+  subroutine renew_gaps(contact, is_same)
+    type(contact_t), intent(inout) :: contact
+    logical, intent(inout) :: is_same
+    integer :: p, a, b
+    a = 0
+    b = 0
+    do p = 1, size(contact%pairing)
+      if (contact%acts(p) .and. contact%pairing(p)%item%listed > 0) &
+          call contact%pairing(p)%item%renew_gaps(contact%rows, a, contact%spare, b, is_same)
+    end do
+    is_same = is_same .and. a == contact%rows%n .and. b == contact%spare%n
+  end subroutine renew_gaps
+
+  !> The rows of the places, with the reactions of the last step.
+  subroutine make_rows(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: p
+    contact%rows_are_plain = .true.
     call start_rows(contact%next)
     call start_rows(contact%spare)
     do p = 1, size(contact%pairing)
       if (contact%acts(p) .and. contact%pairing(p)%item%listed > 0) &
-          call contact%pairing(p)%item%append_rows(model, u, contact%free, contact%next, &
-          contact%spare)
+          call contact%pairing(p)%item%append_rows(contact%next, contact%spare)
     end do
     if (contact%solves_without_contact < 3) then
       call carry_reactions(contact%rows, contact%next)
@@ -44,7 +73,7 @@ contains
     end if
     call use_next(contact)
     if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
-  end subroutine find_rows
+  end subroutine make_rows
 
   !> contact%next becomes the list of rows.
   subroutine use_next(contact)
@@ -75,6 +104,7 @@ contains
   subroutine take_marked(contact)
     type(contact_t), intent(inout) :: contact
     integer :: a, b
+    contact%rows_are_plain = .false.
     call start_rows(contact%left)
     call start_rows(contact%work_rows)
     a = 1
@@ -186,6 +216,7 @@ contains
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n
     integer :: a, k
+    contact%rows_are_plain = .false.
     call start_rows(contact%next)
     a = 1
     do k = 1, n

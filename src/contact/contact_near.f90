@@ -7,6 +7,7 @@ module contact_near
   use contact_features, only: cone_of_node_t, cone_of_node, normal_between, faces, degree, &
       difference
   use contact_places, only: is_excluded
+  use contact_repeat, only: last_place_t
   use contact_surface, only: surface_t, turn_between
   use contact_tree, only: tree_t, edges_near, distance_to_edges
   implicit none
@@ -20,6 +21,8 @@ module contact_near
     integer, allocatable :: node(:)            !< rows of the surface's nodes, increasing
     integer, allocatable :: first(:), edge(:)  !< their edges, increasing
     real(wp), allocatable :: distance(:)       !< true gap at the end of the last step [L]
+    integer, allocatable :: nearest(:)         !< the edge that this gap is to
+    type(last_place_t), allocatable :: last(:)
     integer, allocatable :: front(:)           !< away, in front, behind: of open obstacles
   end type near_t
 
@@ -184,8 +187,11 @@ contains
     type(near_t), intent(in) :: old
     type(near_t), intent(inout) :: near
     integer :: i, j
-    if (allocated(near%distance)) deallocate (near%distance, near%front)
-    allocate (near%distance(near%n), near%front(near%n))
+    if (allocated(near%distance)) deallocate (near%distance, near%front, near%nearest, &
+        near%last)
+    allocate (near%distance(near%n), near%front(near%n), near%nearest(near%n))
+    allocate (near%last(near%n))
+    near%nearest = 0
     near%distance = -huge(one)
     near%front = is_away
     j = 1
@@ -221,8 +227,10 @@ contains
     call archive%exchange('near.m', m)
     if (archive%mode == archive_restore) then
       if (allocated(near%node)) deallocate (near%node, near%first, near%edge, near%distance, &
-          near%front)
+          near%front, near%nearest, near%last)
       allocate (near%node(n), near%first(n + 1), near%edge(m), near%distance(n), near%front(n))
+      allocate (near%nearest(n), near%last(n))
+      near%nearest = 0
       near%first = 1
       near%n = n
     end if

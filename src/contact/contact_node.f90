@@ -5,14 +5,15 @@
 module contact_node
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
+  use contact_emit, only: emit_row, judge_late, too_deep
   use contact_facing, only: mark_near, mark_facing
-  use contact_features, only: gap_to_place, smooth_angle
-  use contact_grade, only: grade_place, settle_twins, points_of_place, finer_auto
+  use contact_grade, only: grade_place, settle_twins, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
   use contact_overlap, only: true_gap, look_again, open_gap, update_front
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
-  use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
+  use contact_repeat, only: keep_place, repeat_place
+  use contact_rows, only: rows_t, renew_gap
   use contact_surface, only: surface_t, shortest_edge_at
   use contact_tree, only: tree_t, build_tree, refit_tree
   use contact_whole, only: deepest_node, deepest_inner_point, deepest_crossing, &
@@ -31,19 +32,21 @@ module contact_node
     type(sight_t) :: sight               !< work space of one node
     type(place_t), allocatable :: place(:)
     integer :: places = 0
+    integer :: repeated = 0              !< of them those of the last step, but for their gaps
+    logical :: is_measured = .false.     !< true gaps are those of the end of this step
   contains
     procedure :: list => node_list
     procedure :: mark_interface => node_mark_interface
     procedure :: mark_contact_nodes => node_mark_contact_nodes
+    procedure :: find_places => node_find_places
     procedure :: append_rows => node_append_rows
+    procedure :: renew_gaps => node_renew_gaps
     procedure :: find_late => node_find_late
     procedure :: measure => node_measure
     procedure :: measure_whole => node_measure_whole
     procedure :: exchange => node_exchange
   end type pairing_node_t
 
-  !> A late row is one whose gap at the end of the step is below this many allowances.
-  real(wp), parameter :: too_deep = 1.5_wp
 
 contains
 
@@ -134,14 +137,18 @@ contains
     end do
   end subroutine node_mark_contact_nodes
 
-  subroutine node_append_rows(this, model, u, free, rows, spare)
+  subroutine node_find_places(this, model, u, free, is_same)
     class(pairing_node_t), intent(inout) :: this
     type(model_t), intent(in) :: model
     real(wp), intent(in), contiguous :: u(:, :), free(:, :)
-    type(rows_t), intent(inout) :: rows, spare
+    logical, intent(out) :: is_same
     type(view_t) :: view
-    integer :: s, n_first
+    integer :: s, n_first, before
+    before = this%places
+    is_same = .false.
     this%places = 0
+    this%repeated = 0
+    this%is_measured = .false.
     if (this%listed == 0) return
     view%is_reference = this%is_reference
     view%may_share = this%is_self .or. this%may_share
@@ -154,8 +161,8 @@ contains
     end do
     if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u, &
         this%place, n_first, this%places)
-    call emit_rows(this, rows, spare)
-  end subroutine node_append_rows
+    is_same = this%repeated == this%places .and. this%places == before
+  end subroutine node_find_places
 
   !> Bound of the motion of any two near nodes relative to each other [L].
   pure real(wp) function relative_motion(this, free)
@@ -189,10 +196,18 @@ contains
     type(view_t), intent(in) :: view
     real(wp) :: gap
     integer :: i, edge
+    logical :: is_same
     associate (near => this%near(s), own => this%side(s), &
         obstacle => this%side(facing_side(this, s)))
       do i = 1, near%n
         if (near%distance(i) > view%reach) cycle
+        call repeat_place(own, obstacle, near%node(i), model%x, u, view%is_reference, &
+            view%reach, near%last(i), is_same)
+        if (is_same) then
+          this%repeated = this%repeated + 1
+          call add_place(this, near%last(i)%place, near%distance(i))
+          cycle
+        end if
         associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
           if (.not. obstacle%is_closed) then
             call open_gap(own, obstacle, near%node(i), list, model%x, u, gap, edge)
@@ -207,6 +222,10 @@ contains
           if (any(place%gap < -place%allowance)) call find_distance(this, model%x, u, s, i)
         end associate
         call take_places(this, s, near%node(i), near%distance(i))
+        near%last(i)%is_set = .false.
+        if (this%places > 0 .and. obstacle%is_closed) call keep_place(own%node(near%node(i)), &
+            near%first(i + 1) - near%first(i), this%sight%places, this%place(this%places), &
+            this%sight%cone, near%last(i))
       end do
     end associate
   end subroutine find_side
@@ -241,13 +260,21 @@ contains
         place = this%sight%place(j)
         place%side = s
         call grade_place(own, obstacle, k, this%finer, this%sight%cone, place)
-        if (distance > zero .and. place%gap < -place%allowance) cycle
-        if (this%places == size(this%place)) call more_places(this)
-        this%places = this%places + 1
-        this%place(this%places) = place
+        call add_place(this, place, distance)
       end do
     end associate
   end subroutine take_places
+
+  !> Keeps a place, if its node at that distance may have it.
+  subroutine add_place(this, place, distance)
+    type(pairing_node_t), intent(inout) :: this
+    type(place_t), intent(in) :: place
+    real(wp), intent(in) :: distance
+    if (distance > zero .and. place%gap < -place%allowance) return
+    if (this%places == size(this%place)) call more_places(this)
+    this%places = this%places + 1
+    this%place(this%places) = place
+  end subroutine add_place
 
   subroutine more_places(this)
     type(pairing_node_t), intent(inout) :: this
@@ -258,45 +285,36 @@ contains
   end subroutine more_places
 
   !> Rows of the exact places; those of the others are kept apart.
-  subroutine emit_rows(this, rows, spare)
-    type(pairing_node_t), intent(in) :: this
+  subroutine node_append_rows(this, rows, spare)
+    class(pairing_node_t), intent(inout) :: this
     type(rows_t), intent(inout) :: rows, spare
     integer :: j
     do j = 1, this%places
+      associate (place => this%place(j), &
+          obstacle => this%side(facing_side(this, this%place(j)%side)))
+        if (place%is_exact) then
+          call emit_row(this%number, obstacle, this%mu, place, rows)
+        else
+          call emit_row(this%number, obstacle, this%mu, place, spare)
+        end if
+      end associate
+    end do
+  end subroutine node_append_rows
+
+  subroutine node_renew_gaps(this, rows, a, spare, b, is_same)
+    class(pairing_node_t), intent(in) :: this
+    type(rows_t), intent(inout) :: rows, spare
+    integer, intent(inout) :: a, b
+    logical, intent(inout) :: is_same
+    integer :: j
+    do j = 1, this%places
       if (this%place(j)%is_exact) then
-        call emit_row(this, this%place(j), rows)
+        call renew_gap(rows, a, this%place(j)%node, this%place(j)%gap, is_same)
       else
-        call emit_row(this, this%place(j), spare)
+        call renew_gap(spare, b, this%place(j)%node, this%place(j)%gap, is_same)
       end if
     end do
-  end subroutine emit_rows
-
-  subroutine emit_row(this, place, rows)
-    type(pairing_node_t), intent(in) :: this
-    type(place_t), intent(in) :: place
-    type(rows_t), intent(inout) :: rows
-    real(wp) :: weight(3)
-    integer :: point(3), points
-    call points_of_place(this%side(facing_side(this, place%side)), place, point, weight, points)
-    call add_row(rows, key_of(this, place), point(:points), weight(:points), place%normal, &
-        place%gap, this%mu, place%length, kind_of(place), &
-        merge(zero, place%allowance, place%is_exact))
-  end subroutine emit_row
-
-  pure function key_of(this, place) result(key)
-    type(pairing_node_t), intent(in) :: this
-    type(place_t), intent(in) :: place
-    integer :: key(4)
-    key = [this%number, place%side, place%node, place%edge]
-    if (place%vertex > 0) key(4) = -place%vertex
-  end function key_of
-
-  pure integer function kind_of(place)
-    type(place_t), intent(in) :: place
-    kind_of = row_edge
-    if (place%vertex > 0) kind_of = row_vertex
-    if (place%is_second) kind_of = row_second
-  end function kind_of
+  end subroutine node_renew_gaps
 
   !> Nodes that are deeper at the end of the step than what they may: their places there, as
   !> new rows or as new frames of the rows they have.
@@ -313,6 +331,7 @@ contains
     do s = 1, merge(1, 2, this%is_self)
       if (.not. some_deep) call find_end(this, model, s, u1, .false., some_deep)
     end do
+    this%is_measured = .not. some_deep
     if (.not. some_deep) return
     ! All places: what meets a deep node decides which of the two has the row.
     this%places = 0
@@ -323,7 +342,8 @@ contains
     if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u1, this%place, &
         n_first, this%places)
     do j = 1, this%places
-      call judge_late(this, model, u0, this%place(j), rows, late, n)
+      call judge_late(this%number, this%side(facing_side(this, this%place(j)%side)), model%x, &
+          u0, this%place(j), rows, late, n)
     end do
   end subroutine node_find_late
 
@@ -346,10 +366,14 @@ contains
         if (near%front(i) == is_behind) cycle
         associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
           call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
-          if (gap < -least_allowance(own, obstacle, near%node(i))) then
-            call look_again(own, obstacle, this%is_self, near%node(i), model%x, u, gap, edge)
-          else
-            gap = max(gap, tiny(one))
+          near%distance(i) = gap
+          near%nearest(i) = edge
+          if (gap >= zero .and. .not. is_all) cycle
+          if (gap < zero) then
+            if (gap < -least_allowance(own, obstacle, near%node(i))) &
+                call look_again(own, obstacle, this%is_self, near%node(i), model%x, u, gap, &
+                edge)
+            if (gap >= -least_allowance(own, obstacle, near%node(i))) gap = tiny(one)
           end if
           if (gap > merge(view%reach, zero, is_all)) cycle
           call find_places(own, obstacle, near%node(i), list, model%x, u, view, this%sight)
@@ -380,42 +404,6 @@ contains
         *min(obstacle%shortest, shortest_edge_at(own, k, obstacle%shortest))
   end function least_allowance
 
-  !> A place at the end of the step against the rows of its node.
-  subroutine judge_late(this, model, u0, place, rows, late, n)
-    type(pairing_node_t), intent(in) :: this
-    type(model_t), intent(in) :: model
-    real(wp), intent(in), contiguous :: u0(:, :)
-    type(place_t), intent(in) :: place
-    type(rows_t), intent(in) :: rows
-    type(late_t), intent(inout) :: late(:)
-    integer, intent(inout) :: n
-    integer :: a, found
-    real(wp) :: nearest
-    if (place%gap >= -too_deep*place%allowance .or. n == size(late)) return
-    found = 0
-    nearest = cos(smooth_angle)
-    do a = 1, rows%n
-      if (any(rows%key(1:3, a) /= [this%number, place%side, place%node])) cycle
-      if (dot_product(rows%normal(:, a), place%normal) < nearest) cycle
-      nearest = dot_product(rows%normal(:, a), place%normal)
-      found = a
-    end do
-    if (found > 0) then
-      if (min(rows%gap(found), zero) - place%gap <= place%allowance) return
-    end if
-    n = n + 1
-    late(n)%row = found
-    late(n)%key = key_of(this, place)
-    call points_of_place(this%side(facing_side(this, place%side)), place, late(n)%point, &
-        late(n)%weight, late(n)%points)
-    late(n)%normal = place%normal
-    late(n)%gap = gap_to_place(late(n)%point(:late(n)%points), &
-        late(n)%weight(:late(n)%points), place%normal, model%x, u0)
-    late(n)%allowance = merge(zero, place%allowance, place%is_exact)
-    late(n)%length = place%length
-    late(n)%kind = kind_of(place)
-  end subroutine judge_late
-
   !> True gaps at the end of a step, the smallest in sums; the deepest overlap.
   subroutine node_measure(this, model, u, overlap)
     class(pairing_node_t), intent(inout) :: this
@@ -430,7 +418,10 @@ contains
         do i = 1, near%n
           associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
             if (obstacle%is_closed) then
-              call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
+              gap = near%distance(i)
+              edge = near%nearest(i)
+              if (.not. this%is_measured) call true_gap(obstacle, list, model%x, u, &
+                  own%node(near%node(i)), gap, edge)
               if (gap < zero) call look_again(own, obstacle, this%is_self, near%node(i), &
                   model%x, u, gap, edge)
             else

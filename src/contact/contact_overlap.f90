@@ -65,9 +65,18 @@ contains
     if (edge == 0) return
     if (place == 0 .and. cross < zero) gap = -gap
     if (place > 0) then
+      ! In front of the edge at a corner that was sharp and convex: outside.
+      if (cross > zero .and. is_sharp_there(obstacle, edge, place)) return
       if (is_behind_vertex(obstacle, edge, place, x, u, node)) gap = -gap
     end if
   end subroutine true_gap
+
+  !> Is the boundary sharp and convex at the first (1) or second (2) node of an edge?
+  pure logical function is_sharp_there(obstacle, edge, place)
+    type(surface_t), intent(in) :: obstacle
+    integer, intent(in) :: edge, place
+    is_sharp_there = obstacle%turn(obstacle%index(obstacle%end_node(place, edge))) > one
+  end function is_sharp_there
 
   !> Of a node to which the first (1) or second (2) node of an edge is the nearest point of
   !> the listed boundary: does it stand behind it? In front of a convex vertex it is where one

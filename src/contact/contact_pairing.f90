@@ -100,7 +100,9 @@ module contact_pairing
     procedure(list_i), deferred :: list
     procedure(interface_i), deferred :: mark_interface
     procedure(mark_i), deferred :: mark_contact_nodes
+    procedure(find_i), deferred :: find_places
     procedure(append_i), deferred :: append_rows
+    procedure(renew_i), deferred :: renew_gaps
     procedure(late_i), deferred :: find_late
     procedure(measure_i), deferred :: measure
     procedure(whole_i), deferred :: measure_whole
@@ -136,15 +138,31 @@ module contact_pairing
       type(model_t), intent(in) :: model
       logical, intent(inout) :: taken(:)
     end subroutine mark_i
-    !> Rows at the start of a step of free motion free (2, nodes) [L], which only interface
-    !> nodes have. spare: rows that hold only below their allowance.
-    subroutine append_i(this, model, u, free, rows, spare)
-      import :: pairing_t, model_t, rows_t, wp
+    !> Places of nodes on the obstacle at the start of a step of free motion free (2, nodes)
+    !> [L], which only interface nodes have. is_same: they are those of the last step, but for
+    !> their gaps.
+    subroutine find_i(this, model, u, free, is_same)
+      import :: pairing_t, model_t, wp
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
       real(wp), intent(in), contiguous :: u(:, :), free(:, :)
+      logical, intent(out) :: is_same
+    end subroutine find_i
+    !> Rows of the places. spare: rows that hold only below their allowance.
+    subroutine append_i(this, rows, spare)
+      import :: pairing_t, rows_t
+      class(pairing_t), intent(inout) :: this
       type(rows_t), intent(inout) :: rows, spare
     end subroutine append_i
+    !> New gaps for the rows and spare rows behind the first a and b, which are those of the
+    !> places; is_same turns false if they are not.
+    subroutine renew_i(this, rows, a, spare, b, is_same)
+      import :: pairing_t, rows_t
+      class(pairing_t), intent(in) :: this
+      type(rows_t), intent(inout) :: rows, spare
+      integer, intent(inout) :: a, b
+      logical, intent(inout) :: is_same
+    end subroutine renew_i
     !> What the solved end of the step u1 shows to be missing; u0 its start.
     subroutine late_i(this, model, u0, u1, rows, late, n)
       import :: pairing_t, model_t, rows_t, late_t, wp

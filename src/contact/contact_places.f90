@@ -52,7 +52,7 @@ module contact_places
     real(wp) :: reach = zero               !< rows are made up to this gap [L]
   end type view_t
 
-  real(wp), parameter :: deepest = 0.3_wp          !< edges: a deeper node is not before it
+  real(wp), parameter, public :: deepest = 0.3_wp  !< edges: a deeper node is not before it
   real(wp), parameter :: narrow = 3.0_wp*degree    !< two faces that lie on each other
   real(wp), parameter :: empty = 10.0_wp*degree    !< cones that miss each other by more
   real(wp), parameter, public :: corner = 20.0_wp*degree   !< a sharper one is watched exactly
@@ -62,7 +62,7 @@ module contact_places
   real(wp), parameter :: share_of_edge = 1.0e-3_wp
   real(wp), parameter, public :: share_at_corner = 2.0e-4_wp
 
-  public :: find_places, size_sight, is_excluded
+  public :: find_places, size_sight, is_excluded, clamped
 
 contains
 
@@ -164,6 +164,7 @@ contains
     if (makes_row) makes_row = faces(sight%frame(j)%normal, cone, facing_angle)
   end function makes_row
 
+  !> A local coordinate that is at an end of its edge to round-off is there.
   pure real(wp) function clamped(s)
     real(wp), intent(in) :: s
     clamped = s

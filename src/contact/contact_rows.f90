@@ -38,7 +38,7 @@ module contact_rows
   integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
       row_kinds = 4
 
-  public :: start_rows, add_row, copy_row, copy_rows, swap_rows, same_geometry, &
+  public :: start_rows, add_row, renew_gap, copy_row, copy_rows, swap_rows, same_geometry, &
       carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, &
       row_force, add_row_force, row_of_h
 
@@ -155,6 +155,20 @@ contains
       rows%status(a) = contact_open
     end associate
   end subroutine add_row
+
+  !> A new gap [L] for the row behind row a, which must be of this node.
+  pure subroutine renew_gap(rows, a, node, gap, is_same)
+    type(rows_t), intent(inout) :: rows
+    integer, intent(inout) :: a
+    integer, intent(in) :: node
+    real(wp), intent(in) :: gap
+    logical, intent(inout) :: is_same
+    a = a + 1
+    if (a > rows%n) is_same = .false.
+    if (.not. is_same) return
+    if (rows%key(3, a) /= node) is_same = .false.
+    rows%gap(a) = gap
+  end subroutine renew_gap
 
   !> Exchanges two lists without copying.
   pure subroutine swap_rows(a, b)

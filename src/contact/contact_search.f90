@@ -82,6 +82,7 @@ contains
     logical, intent(out) :: new_interface
     logical :: taken(model%nodes)
     integer :: carrier(model%nodes), p, k
+    contact%rows_are_plain = .false.
     taken = .false.
     carrier = 0
     contact%listed = 0

@@ -57,6 +57,8 @@ module contact_types
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
     logical :: w_is_current = .false.
+    !> rows and spare are those of the places at the start of the last step
+    logical :: rows_are_plain = .false.
     !> The last reactions were nearer to those of the solve before the last: forces alternate
     !> from step to step (theta = 1/2), and so will the next start.
     logical :: alternates = .false.

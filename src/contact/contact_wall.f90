@@ -6,7 +6,7 @@ module contact_wall
   use base_kinds, only: wp, zero, one, half
   use contact_near, only: near_t, exchange_near
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap
-  use contact_rows, only: rows_t, add_row, row_wall
+  use contact_rows, only: rows_t, add_row, renew_gap, row_wall
   use model_data, only: model_t
   implicit none
   private
@@ -15,11 +15,15 @@ module contact_wall
     real(wp) :: point(2) = zero         !< on it [L]
     real(wp) :: normal(2) = zero        !< toward the bodies
     type(near_t) :: near
+    real(wp), allocatable :: gap(:)     !< of the near nodes [L]
+    logical :: is_new = .true.          !< the list is another one than in the last step
   contains
     procedure :: list => wall_list
     procedure :: mark_interface => wall_mark_interface
     procedure :: mark_contact_nodes => wall_mark_contact_nodes
+    procedure :: find_places => wall_find_places
     procedure :: append_rows => wall_append_rows
+    procedure :: renew_gaps => wall_renew_gaps
     procedure :: find_late => wall_find_late
     procedure :: measure => wall_measure
     procedure :: measure_whole => wall_measure_whole
@@ -49,8 +53,10 @@ contains
     if (.not. reach > this%side(1)%mean_length) near_enough = half*reach
     this%safe_distance = huge(one)
     this%listed = 0
+    this%is_new = .true.
     if (allocated(this%near%node)) deallocate (this%near%node)
     allocate (this%near%node(size(this%side(1)%node)))
+    if (.not. allocated(this%gap)) allocate (this%gap(size(this%side(1)%node)))
     do k = 1, size(this%side(1)%node)
       gap = wall_distance(this, model%x, u, this%side(1)%node(k))
       if (gap <= near_enough) then
@@ -84,19 +90,41 @@ contains
     end do
   end subroutine wall_mark_contact_nodes
 
-  subroutine wall_append_rows(this, model, u, free, rows, spare)
+  subroutine wall_find_places(this, model, u, free, is_same)
     class(pairing_wall_t), intent(inout) :: this
     type(model_t), intent(in) :: model
     real(wp), intent(in), contiguous :: u(:, :), free(:, :)
+    logical, intent(out) :: is_same
+    integer :: i
+    do i = 1, this%near%n
+      this%gap(i) = wall_distance(this, model%x, u, this%side(1)%node(this%near%node(i)))
+    end do
+    is_same = .not. this%is_new
+    this%is_new = .false.
+  end subroutine wall_find_places
+
+  subroutine wall_append_rows(this, rows, spare)
+    class(pairing_wall_t), intent(inout) :: this
     type(rows_t), intent(inout) :: rows, spare
     integer :: i
     do i = 1, this%near%n
       associate (node => this%side(1)%node(this%near%node(i)))
         call add_row(rows, [this%number, 1, node, 0], [node], [one], this%normal, &
-            wall_distance(this, model%x, u, node), this%mu, edge_length(this), row_wall, zero)
+            this%gap(i), this%mu, edge_length(this), row_wall, zero)
       end associate
     end do
   end subroutine wall_append_rows
+
+  subroutine wall_renew_gaps(this, rows, a, spare, b, is_same)
+    class(pairing_wall_t), intent(in) :: this
+    type(rows_t), intent(inout) :: rows, spare
+    integer, intent(inout) :: a, b
+    logical, intent(inout) :: is_same
+    integer :: i
+    do i = 1, this%near%n
+      call renew_gap(rows, a, this%side(1)%node(this%near%node(i)), this%gap(i), is_same)
+    end do
+  end subroutine wall_renew_gaps
 
   pure real(wp) function edge_length(this)
     type(pairing_wall_t), intent(in) :: this
@@ -169,6 +197,7 @@ contains
     if (archive%mode == archive_restore) then
       if (allocated(this%near%node)) deallocate (this%near%node)
       allocate (this%near%node(n))
+      if (.not. allocated(this%gap)) allocate (this%gap(size(this%side(1)%node)))
       this%near%n = n
     end if
     call archive%exchange('wall.node', this%near%node(:n))
