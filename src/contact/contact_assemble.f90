@@ -86,13 +86,15 @@ contains
     call find_slots(contact%slot, contact%rows)
   end subroutine use_next
 
-  !> Spare rows that carried load in the last step are solved for from the start.
+  !> Spare rows that carried load in one of the last three solves (forces may alternate) are
+  !> solved for from the start.
   subroutine take_loaded(contact)
     type(contact_t), intent(inout) :: contact
     integer :: b
     if (contact%spare%n == 0) return
     do b = 1, contact%spare%n
-      contact%spare%is_marked(b) = contact%spare%r(1, b) > zero
+      contact%spare%is_marked(b) = max(contact%spare%r(1, b), contact%spare%r_previous(1, b), &
+          contact%spare%r_older(1, b)) > zero
     end do
     if (.not. any(contact%spare%is_marked(:contact%spare%n))) return
     call swap_rows(contact%rows, contact%next)     ! the old rows have been carried
