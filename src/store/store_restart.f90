@@ -129,7 +129,7 @@ contains
       return
     end if
     if (text(head + 1:head + 16) /= checksum_of_text(text(:head)) .or. &
-        text(head + 17:) /= '' .or. ios /= 0) then
+        text(head + 17:free - 1) /= '' .or. text(free:) /= new_line('a') .or. ios /= 0) then
       call refuse(path, 'its first bytes are damaged', status)
       return
     end if
