@@ -94,7 +94,7 @@ contains
     if (contact%spare%n == 0) return
     do b = 1, contact%spare%n
       contact%spare%is_marked(b) = max(contact%spare%r(1, b), contact%spare%r_previous(1, b), &
-          contact%spare%r_older(1, b)) > zero
+          contact%spare%r_older(1, b)) > zero .and. .not. contact%spare%is_twin(b)
     end do
     if (.not. any(contact%spare%is_marked(:contact%spare%n))) return
     call swap_rows(contact%rows, contact%next)     ! the old rows have been carried

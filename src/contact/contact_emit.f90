@@ -30,6 +30,7 @@ contains
     call add_row(rows, key_of(number, place), point(:points), weight(:points), place%normal, &
         place%gap, mu, place%length, kind_of(place), &
         merge(zero, place%allowance, place%is_exact))
+    rows%is_twin(rows%n) = place%is_twin
   end subroutine emit_row
 
   pure function key_of(number, place) result(key)
@@ -60,6 +61,7 @@ contains
     integer :: a, found
     real(wp) :: nearest
     if (place%gap >= -too_deep*place%allowance .or. n == size(late)) return
+    if (place%is_twin) return    ! the new frame of the other's row is enough
     found = 0
     nearest = cos(smooth_angle)
     do a = 1, rows%n

@@ -217,6 +217,8 @@ contains
     is_exact = a%is_exact .or. b%is_exact
     a%is_exact = a_stays .and. is_exact
     b%is_exact = .not. a_stays .and. is_exact
+    a%is_twin = .not. a_stays .and. is_exact
+    b%is_twin = a_stays .and. is_exact
     if (a_stays) call take_mean(side_b, x, u, b%normal, a)
     if (.not. a_stays) call take_mean(side_a, x, u, a%normal, b)
   end subroutine settle_pair

@@ -28,6 +28,7 @@ module contact_places
     real(wp) :: own_size = zero      !< of the node's edges that face it [L]
     real(wp) :: allowance = zero     !< what it may go below zero [L]
     logical :: is_exact = .false.    !< gap >= 0; else a row only below the allowance
+    logical :: is_twin = .false.     !< another node's exact row says the same
     logical :: is_second = .false.   !< not the nearest of its node
     integer :: row = 0               !< a late place: the row whose frame it replaces
   end type place_t

@@ -26,6 +26,7 @@ module contact_rows
     real(wp), allocatable :: mu(:)
     real(wp), allocatable :: length(:)     !< of the edge [L]
     logical, allocatable :: is_rigid(:)    !< both sides constrained: W_nn = 0, only watched
+    logical, allocatable :: is_twin(:)     !< an exact row of another node says the same
     logical, allocatable :: is_marked(:)   !< to be moved to another list
     ! Reactions (n, t) of this step and of the two solves before [F], displacement [L],
     ! status.
@@ -77,10 +78,9 @@ contains
     call size_integer(rows%slot, 3*n)
     call size_integer(rows%status, n)
     call size_integer(rows%kind, n)
-    if (allocated(rows%is_rigid)) deallocate (rows%is_rigid, rows%is_marked)
-    allocate (rows%is_rigid(n), rows%is_marked(n))
-    rows%is_rigid = .false.
-    rows%is_marked = .false.
+    call size_logical(rows%is_rigid, n)
+    call size_logical(rows%is_marked, n)
+    call size_logical(rows%is_twin, n)
   end subroutine size_rows
 
   pure subroutine size_reals(a, m, n)
@@ -123,6 +123,16 @@ contains
     call move_alloc(longer, a)
   end subroutine size_integer
 
+  pure subroutine size_logical(a, n)
+    logical, allocatable, intent(inout) :: a(:)
+    integer, intent(in) :: n
+    logical, allocatable :: longer(:)
+    allocate (longer(n))
+    longer = .false.
+    if (allocated(a)) longer(:size(a)) = a
+    call move_alloc(longer, a)
+  end subroutine size_logical
+
   !> Adds a row: key, points and weights, normal, gap [L], mu, edge length [L], kind,
   !> allowance [L]; no reaction yet.
   pure subroutine add_row(rows, key, point, weight, normal, gap, mu, length, kind, allowance)
@@ -148,6 +158,7 @@ contains
       rows%length(a) = length
       rows%is_rigid(a) = .false.
       rows%is_marked(a) = .false.
+      rows%is_twin(a) = .false.
       rows%r(:, a) = zero
       rows%r_previous(:, a) = zero
       rows%r_older(:, a) = zero
@@ -264,6 +275,7 @@ contains
     associate (a => rows%n)
       rows%offset(a) = from%offset(b)
       rows%is_rigid(a) = from%is_rigid(b)
+      rows%is_twin(a) = from%is_twin(b)
       rows%r(:, a) = from%r(:, b)
       rows%r_previous(:, a) = from%r_previous(:, b)
       rows%r_older(:, a) = from%r_older(:, b)

@@ -68,10 +68,17 @@ contains
     integer, intent(in) :: last(:)
     integer, allocatable, intent(out) :: leading(:)
     logical :: is_leading(n)
-    integer :: k
+    integer :: i, k
     is_leading = .true.
     is_leading(last) = .false.
-    leading = pack([(k, k=1, n)], is_leading)
+    ! Not by PACK: where memory ends it ends the program with a trace.
+    allocate (leading(count(is_leading)))
+    i = 0
+    do k = 1, n
+      if (.not. is_leading(k)) cycle
+      i = i + 1
+      leading(i) = k
+    end do
   end subroutine leading_nodes
 
   subroutine one_order(graph, nodes, last, name, order, status)

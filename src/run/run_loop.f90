@@ -391,6 +391,7 @@ contains
     !> Steps between two checks: then they cost little beside the steps. Lists cover the rest.
     integer, parameter :: apart = 50
     integer :: element
+    if (failed(status)) return
     if (.not. last .and. run%state%cycle < run%checked + apart) return
     run%checked = run%state%cycle
     call run%timers%enter(phase_search)
