@@ -19,10 +19,10 @@ module contact_monitor
 contains
 
   !> True gaps of the listed nodes at the end of a step u, in every step.
-  subroutine check_listed(model, contact, u, cycle, status)
+  subroutine check_listed(model, contact, u, du, cycle, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     integer, intent(in) :: cycle
     type(status_t), intent(inout) :: status
     integer :: p
@@ -35,9 +35,41 @@ contains
         if (pairing%listed == 0) cycle
         call pairing%measure(model, u, pairing%overlap)
         call judge(model, contact, pairing, cycle, status)
+        if (moves_far(contact, pairing, du)) &
+            call check_passage(model, pairing, u, du, status)
       end associate
     end do
   end subroutine check_listed
+
+  !> Is the step so long that a node may go through something within it?
+  pure logical function moves_far(contact, pairing, du)
+    type(contact_t), intent(in) :: contact
+    class(pairing_t), intent(in) :: pairing
+    real(wp), intent(in), contiguous :: du(:, :)
+    real(wp), parameter :: share = 0.1_wp
+    real(wp) :: largest
+    integer :: k
+    largest = zero
+    do k = 1, size(contact%interface_node)
+      largest = max(largest, sum(du(:, contact%interface_node(k))**2))
+    end do
+    moves_far = .not. pairing%is_wall .and. 2.0_wp*sqrt(largest) > &
+        share*min(pairing%side(1)%shortest, pairing%side(2)%shortest)
+  end function moves_far
+
+  !> Fails at a node that has gone through the other body within the step.
+  subroutine check_passage(model, pairing, u, du, status)
+    type(model_t), intent(in) :: model
+    class(pairing_t), intent(inout) :: pairing
+    real(wp), intent(in), contiguous :: u(:, :), du(:, :)
+    type(status_t), intent(inout) :: status
+    type(overlap_t) :: passage
+    call pairing%find_passage(model, u, du, passage)
+    if (passage%share > warned) call fail(status, status_numerical, 'node '// &
+        to_text(model%node_id(passage%node))//' went through part '//to_text(passage%part)// &
+        ' within the step, '//to_text(passage%depth)//' deep on its way', &
+        hint='take a smaller step: a node must not move further than a body is thick')
+  end subroutine check_passage
 
   !> All nodes and edges of pairing p at u.
   subroutine check_whole(model, contact, p, u, cycle, status)

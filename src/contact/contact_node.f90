@@ -17,7 +17,7 @@ module contact_node
   use contact_surface, only: surface_t, shortest_edge_at
   use contact_tree, only: tree_t, build_tree, refit_tree
   use contact_whole, only: deepest_node, deepest_inner_point, deepest_crossing, &
-      deepest_before_open, accepted_overlap
+      deepest_before_open, deepest_passage, accepted_overlap
   use model_data, only: model_t
   implicit none
   private
@@ -43,6 +43,7 @@ module contact_node
     procedure :: renew_gaps => node_renew_gaps
     procedure :: find_late => node_find_late
     procedure :: measure => node_measure
+    procedure :: find_passage => node_find_passage
     procedure :: measure_whole => node_measure_whole
     procedure :: exchange => node_exchange
   end type pairing_node_t
@@ -271,18 +272,10 @@ contains
     type(place_t), intent(in) :: place
     real(wp), intent(in) :: distance
     if (distance > zero .and. place%gap < -place%allowance) return
-    if (this%places == size(this%place)) call more_places(this)
+    if (this%places == size(this%place)) this%place = [this%place, this%place]
     this%places = this%places + 1
     this%place(this%places) = place
   end subroutine add_place
-
-  subroutine more_places(this)
-    type(pairing_node_t), intent(inout) :: this
-    type(place_t), allocatable :: longer(:)
-    allocate (longer(2*size(this%place)))
-    longer(:this%places) = this%place(:this%places)
-    call move_alloc(longer, this%place)
-  end subroutine more_places
 
   !> Rows of the exact places; those of the others are kept apart.
   subroutine node_append_rows(this, rows, spare)
@@ -442,6 +435,20 @@ contains
       end associate
     end do
   end subroutine node_measure
+
+  !> Near nodes that stand outside a closed side: were they inside within the step?
+  subroutine node_find_passage(this, model, u, du, overlap)
+    class(pairing_node_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in), contiguous :: u(:, :), du(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    integer :: s
+    if (this%is_self) return
+    do s = 1, 2
+      if (this%side(3 - s)%is_closed) call deepest_passage(this%side(s), this%side(3 - s), &
+          this%near(s), model%x, u, du, overlap)
+    end do
+  end subroutine node_find_passage
 
   !> All nodes and edges of closed sides; of open ones what stands just behind them.
   subroutine node_measure_whole(this, model, u, overlap, accepted)

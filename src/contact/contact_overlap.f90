@@ -9,7 +9,7 @@ module contact_overlap
   use contact_surface, only: surface_t
   implicit none
   private
-  public :: true_gap, look_again, open_gap, update_front
+  public :: true_gap, look_again, passage_through, open_gap, update_front
 
   !> Edges: shallower nodes are inside where the listed edges say so.
   real(wp), parameter :: sure = 5.0e-3_wp
@@ -169,6 +169,57 @@ contains
       gap = merge(-depth, depth, is_inside)
     end if
   end subroutine look_again
+
+  !> How deep [L] a node was on its way through a closed obstacle in a step of motion du to
+  !> u, and the edge where it came in (0: nowhere): through a listed edge from the front, at
+  !> times between then and the end, all motions linear in time.
+  pure subroutine passage_through(obstacle, list, x, u, du, node, depth, edge)
+    type(surface_t), intent(in) :: obstacle
+    integer, intent(in) :: list(:), node
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), du(:, :)
+    real(wp), intent(out) :: depth
+    integer, intent(out) :: edge
+    integer, parameter :: times = 8
+    real(wp) :: start, now, deep
+    integer :: j, k, nearest
+    logical :: is_inside
+    depth = zero
+    edge = 0
+    do j = 1, size(list)
+      start = instant_of_entry(obstacle, list(j), x, u, du, node)
+      if (start > one) cycle
+      do k = 1, times - 1
+        now = start + (one - start)*k/times
+        call confirm_inside(obstacle, x, u - (one - now)*du, node, [zero, zero], 0, 0, &
+            is_inside, deep, nearest)
+        if (.not. is_inside .or. deep <= depth) cycle
+        depth = deep
+        edge = list(j)
+      end do
+    end do
+  end subroutine passage_through
+
+  !> When in the step a node passes an edge from its front to its back; 2: it does not.
+  pure real(wp) function instant_of_entry(obstacle, edge, x, u, du, node)
+    type(surface_t), intent(in) :: obstacle
+    integer, intent(in) :: edge, node
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), du(:, :)
+    real(wp) :: d(2, 2), y(2, 2), g(2), t, s
+    instant_of_entry = 2.0_wp
+    associate (a => obstacle%end_node(1, edge), b => obstacle%end_node(2, edge))
+      d(:, 2) = difference(x, u, b, a)
+      y(:, 2) = difference(x, u, node, a)
+      d(:, 1) = d(:, 2) - (du(:, b) - du(:, a))
+      y(:, 1) = y(:, 2) - (du(:, node) - du(:, a))
+    end associate
+    g = d(2, :)*y(1, :) - d(1, :)*y(2, :)
+    if (g(1) < zero .or. g(2) >= zero) return
+    t = g(1)/(g(1) - g(2))
+    d(:, 1) = (one - t)*d(:, 1) + t*d(:, 2)
+    y(:, 1) = (one - t)*y(:, 1) + t*y(:, 2)
+    s = dot_product(d(:, 1), y(:, 1))
+    if (s >= zero .and. s <= dot_product(d(:, 1), d(:, 1))) instant_of_entry = t
+  end function instant_of_entry
 
   !> Gap of row k of the nodes of `own` to the nearest facing edge of an open obstacle whose
   !> extent holds it and from which it is not too deep; huge: none.

@@ -105,6 +105,7 @@ module contact_pairing
     procedure(renew_i), deferred :: renew_gaps
     procedure(late_i), deferred :: find_late
     procedure(measure_i), deferred :: measure
+    procedure :: find_passage
     procedure(whole_i), deferred :: measure_whole
     procedure(exchange_i), deferred :: exchange
   end type pairing_t
@@ -202,6 +203,15 @@ module contact_pairing
   public :: note_overlap
 
 contains
+
+  !> Nodes that have gone through the obstacle within a step of motion du to u and stand outside
+  !> again; does nothing where none can.
+  subroutine find_passage(this, model, u, du, overlap)
+    class(pairing_t), intent(inout) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(in), contiguous :: u(:, :), du(:, :)
+    type(overlap_t), intent(inout) :: overlap
+  end subroutine find_passage
 
   !> Keeps the deeper of two overlaps, in shares of an edge.
   pure subroutine note_overlap(overlap, depth, length, node, part, is_crossing)

@@ -276,7 +276,7 @@ contains
         if (depth > contact%penetration_tolerance*rows%length(a)) &
             call fail_penetration(model, rows%key(3, a), depth, rows%is_rigid(a), status)
       end do
-      if (contact%listed > 0) call check_listed(model, contact, u, cycle, status)
+      if (contact%listed > 0) call check_listed(model, contact, u, du, cycle, status)
       if (.not. acting) return
       do k = 1, contact%n
         contact%work%u(:, k) = rows%u(1:contact%d, contact%row_of(k))

@@ -4,14 +4,14 @@ module contact_whole
   use base_kinds, only: wp, zero, one, half
   use contact_features, only: difference, end_tolerance
   use contact_near, only: near_t
-  use contact_overlap, only: open_gap
+  use contact_overlap, only: open_gap, passage_through
   use contact_pairing, only: overlap_t, note_overlap
   use contact_surface, only: surface_t, shortest_edge_at
   use contact_tree, only: tree_t, edges_in_box, distance_to_edges, winding_number
   implicit none
   private
   public :: deepest_node, deepest_inner_point, deepest_crossing, deepest_before_open, &
-      accepted_overlap
+      deepest_passage, accepted_overlap
 
 contains
 
@@ -189,5 +189,25 @@ contains
     accepted_overlap = min(1.0e-3_wp*shortest, max(tolerance*shortest, &
         1.0e-7_wp*half*sqrt(sum((high - low)**2))))
   end function accepted_overlap
+
+  !> Of the near nodes of `own` that stand outside a closed obstacle the one that was
+  !> deepest inside within a step of motion du to u.
+  pure subroutine deepest_passage(own, obstacle, near, x, u, du, overlap)
+    type(surface_t), intent(in) :: own, obstacle
+    type(near_t), intent(in) :: near
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :), du(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp) :: depth
+    integer :: i, edge
+    do i = 1, near%n
+      if (near%distance(i) < zero) cycle
+      call passage_through(obstacle, near%edge(near%first(i):near%first(i + 1) - 1), x, u, du, &
+          own%node(near%node(i)), depth, edge)
+      if (edge == 0) cycle
+      call note_overlap(overlap, depth, min(obstacle%length(edge), &
+          shortest_edge_at(own, near%node(i), obstacle%length(edge))), &
+          own%node(near%node(i)), obstacle%part_id(edge), .false.)
+    end do
+  end subroutine deepest_passage
 
 end module contact_whole
