@@ -52,15 +52,27 @@ contains
       if (wanted == 'AUTO' .and. k == 3 .and. flops < metis_threshold) exit
       call one_order(graph, leading, last, trim(names(k)), trial, status)
       if (failed(status)) return
-      trial = [trial, last]
+      call append(last, trial)
       cost = count_factor(graph, trial, size(leading))
       if (cost >= flops) cycle
       flops = cost
-      order = trial
+      call move_alloc(trial, order)
       chosen = trim(names(k))
     end do
     if (.not. allocated(order)) call fail(status, status_deck, 'unknown order "'//wanted//'"')
   end subroutine choose_order
+
+  !> Adds more to the end of a list. By ALLOCATE, which tells where memory ends; an assignment
+  !> that makes room does not.
+  pure subroutine append(more, list)
+    integer, intent(in) :: more(:)
+    integer, allocatable, intent(inout) :: list(:)
+    integer, allocatable :: longer(:)
+    allocate (longer(size(list) + size(more)))
+    longer(:size(list)) = list
+    longer(size(list) + 1:) = more
+    call move_alloc(longer, list)
+  end subroutine append
 
   !> All nodes that are not in `last`.
   pure subroutine leading_nodes(n, last, leading)
@@ -93,6 +105,7 @@ contains
     case ('METIS')
       call metis_order(graph, nodes, order, status)
     case default
+      allocate (order(size(nodes)))
       order = nodes
     end select
   end subroutine one_order
@@ -111,6 +124,7 @@ contains
     allocate (order(n), by_degree(n), free(graph%n))
     free = .false.
     free(nodes) = .true.
+    allocate (degree(n))
     degree = graph%first(nodes + 1) - graph%first(nodes)
     call sort_order(degree, by_degree)
     head = 0
