@@ -814,7 +814,7 @@ def purse():
         largest = np.abs(rows["total"]).max()
         at_most((rows["total"] - put_in).max() / largest, 1.0e-9, name + ": growth")
         # The cumulative loss of the only card is its purse: 1e-12 of the largest term a step is
-        # round-off that closes freely (contact-plane 3), less than 1e-10 in these steps.
+        # round-off that closes freely, less than 1e-10 in these steps.
         at_most(-rows["contact"].min() / largest, 1.0e-10, name + ": purse below zero")
         at_most(np.abs(rows["residual"]).max(), 1.0e-11, name + ": ledger")
         count = counted(folder, "steps with a short purse")
