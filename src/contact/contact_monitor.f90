@@ -25,7 +25,9 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     integer, intent(in) :: cycle
     type(status_t), intent(inout) :: status
+    real(wp) :: longest
     integer :: p
+    longest = longest_motion(contact, du)
     do p = 1, size(contact%pairing)
       if (.not. contact%acts(p)) cycle
       associate (pairing => contact%pairing(p)%item)
@@ -35,25 +37,30 @@ contains
         if (pairing%listed == 0) cycle
         call pairing%measure(model, u, pairing%overlap)
         call judge(model, contact, pairing, cycle, status)
-        if (moves_far(contact, pairing, du)) &
+        if (moves_far(pairing, longest)) &
             call check_passage(model, pairing, u, du, status)
       end associate
     end do
   end subroutine check_listed
 
-  !> Is the step so long that a node may go through something within it?
-  pure logical function moves_far(contact, pairing, du)
+  !> The longest motion du of an interface node [L].
+  pure real(wp) function longest_motion(contact, du)
     type(contact_t), intent(in) :: contact
-    class(pairing_t), intent(in) :: pairing
     real(wp), intent(in), contiguous :: du(:, :)
-    real(wp), parameter :: share = 0.1_wp
-    real(wp) :: largest
     integer :: k
-    largest = zero
+    longest_motion = zero
     do k = 1, size(contact%interface_node)
-      largest = max(largest, sum(du(:, contact%interface_node(k))**2))
+      longest_motion = max(longest_motion, sum(du(:, contact%interface_node(k))**2))
     end do
-    moves_far = .not. pairing%is_wall .and. 2.0_wp*sqrt(largest) > &
+    longest_motion = sqrt(longest_motion)
+  end function longest_motion
+
+  !> Do nodes move so far in the step, longest [L] at most, that one may go through something?
+  pure logical function moves_far(pairing, longest)
+    class(pairing_t), intent(in) :: pairing
+    real(wp), intent(in) :: longest
+    real(wp), parameter :: share = 0.1_wp
+    moves_far = .not. pairing%is_wall .and. 2.0_wp*longest > &
         share*min(pairing%side(1)%shortest, pairing%side(2)%shortest)
   end function moves_far
 

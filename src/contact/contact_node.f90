@@ -10,14 +10,14 @@ module contact_node
   use contact_grade, only: grade_place, settle_twins, finer_auto
   use contact_near, only: near_t, list_near, exchange_near, longest_list, turn_limit, is_behind
   use contact_overlap, only: true_gap, look_again, open_gap, update_front
-  use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap, no_gap
+  use contact_pairing, only: pairing_t, overlap_t, late_t, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
   use contact_repeat, only: keep_place, repeat_place
   use contact_rows, only: rows_t, renew_gap
   use contact_surface, only: surface_t, shortest_edge_at
   use contact_tree, only: tree_t, build_tree, refit_tree
   use contact_whole, only: deepest_node, deepest_inner_point, deepest_crossing, &
-      deepest_before_open, deepest_passage, accepted_overlap
+      deepest_before_open, deepest_passage, accepted_overlap, note_node
   use model_data, only: model_t
   implicit none
   private
@@ -48,8 +48,13 @@ module contact_node
     procedure :: exchange => node_exchange
   end type pairing_node_t
 
-
 contains
+
+  !> Sides whose nodes are watched: a surface against itself is one.
+  pure integer function watched_sides(this)
+    type(pairing_node_t), intent(in) :: this
+    watched_sides = merge(1, 2, this%is_self)
+  end function watched_sides
 
   !> The surface that the nodes of a side face.
   pure integer function facing_side(this, s)
@@ -69,7 +74,7 @@ contains
     call place_trees(this, model%x, u)
     this%safe_distance = huge(one)
     some_turned = .false.
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       associate (obstacle => this%side(facing_side(this, s)))
         call list_near(this%side(s), obstacle, this%tree(facing_side(this, s)), model%x, u, &
             reach, this%is_self .or. this%may_share, this%leaves_out, this%near(s), distance, &
@@ -103,7 +108,7 @@ contains
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp), allocatable :: a(:, :), b(:, :)
     integer :: s
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       associate (e => this%side(s)%end_node)
         a = x(:, e(1, :)) + u(:, e(1, :))
         b = x(:, e(2, :)) + u(:, e(2, :))
@@ -120,7 +125,7 @@ contains
     logical, intent(inout) :: taken(:)
     integer, intent(inout) :: carrier(:)
     integer :: s
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       call mark_near(this%side(s), this%side(facing_side(this, s)), this%near(s), taken, &
           carrier)
     end do
@@ -133,7 +138,7 @@ contains
     type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
     integer :: s
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       call mark_facing(model, this%side(s), this%side(facing_side(this, s)), taken)
     end do
   end subroutine node_mark_contact_nodes
@@ -151,12 +156,10 @@ contains
     this%repeated = 0
     this%is_measured = .false.
     if (this%listed == 0) return
-    view%is_reference = this%is_reference
-    view%may_share = this%is_self .or. this%may_share
-    view%reach = 0.25_wp*min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest) &
-        + 2.0_wp*relative_motion(this, free)
+    view = near_view(this)
+    view%reach = view%reach + 2.0_wp*relative_motion(this, free)
     n_first = 0
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       call find_side(this, model, s, u, free, view)
       if (s == 1) n_first = this%places
     end do
@@ -321,14 +324,14 @@ contains
     integer :: s, j, n_first
     logical :: some_deep
     some_deep = .false.
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       if (.not. some_deep) call find_end(this, model, s, u1, .false., some_deep)
     end do
     this%is_measured = .not. some_deep
     if (.not. some_deep) return
     ! All places: what meets a deep node decides which of the two has the row.
     this%places = 0
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       call find_end(this, model, s, u1, .true., some_deep)
       if (s == 1) n_first = this%places
     end do
@@ -352,7 +355,7 @@ contains
     type(view_t) :: view
     real(wp) :: gap
     integer :: i, edge
-    view = view_of_end(this)
+    view = near_view(this)
     associate (near => this%near(s), own => this%side(s), &
         obstacle => this%side(facing_side(this, s)))
       do i = 1, near%n
@@ -380,14 +383,14 @@ contains
     end associate
   end subroutine find_end
 
-  !> At the end of a step only what is near is looked for.
-  pure type(view_t) function view_of_end(this)
+  !> What is nearer than a quarter of the shortest edge: all that matters at the end of a step.
+  pure type(view_t) function near_view(this)
     type(pairing_node_t), intent(in) :: this
-    view_of_end%may_share = this%is_self .or. this%may_share
-    view_of_end%is_reference = this%is_reference
-    view_of_end%reach = &
+    near_view%may_share = this%is_self .or. this%may_share
+    near_view%is_reference = this%is_reference
+    near_view%reach = &
         0.25_wp*min(this%side(1)%shortest, this%side(facing_side(this, 1))%shortest)
-  end function view_of_end
+  end function near_view
 
   !> No node may be less deep than this and still need a row [L].
   pure real(wp) function least_allowance(own, obstacle, k)
@@ -405,7 +408,7 @@ contains
     type(overlap_t), intent(inout) :: overlap
     real(wp) :: gap
     integer :: s, i, edge
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       associate (near => this%near(s), own => this%side(s), &
           obstacle => this%side(facing_side(this, s)))
         do i = 1, near%n
@@ -428,9 +431,7 @@ contains
           this%sums%smallest_gap = min(this%sums%smallest_gap, gap)
           if (allocated(this%nodal)) &
               this%nodal%gap(this%nodal%first(s) + near%node(i)) = min(gap, no_gap)
-          if (gap < zero) call note_overlap(overlap, -gap, min(obstacle%length(edge), &
-              shortest_edge_at(own, near%node(i), obstacle%length(edge))), &
-              own%node(near%node(i)), obstacle%part_id(edge), .false.)
+          if (gap < zero) call note_node(overlap, -gap, own, near%node(i), obstacle, edge)
         end do
       end associate
     end do
@@ -461,7 +462,7 @@ contains
     integer :: s, t
     call place_trees(this, model%x, u)
     found = .false.
-    do s = 1, merge(1, 2, this%is_self)
+    do s = 1, watched_sides(this)
       t = facing_side(this, s)
       if (this%side(t)%is_closed) then
         call deepest_node(this%side(s), this%side(t), this%tree(t), model%x, u, this%is_self, &

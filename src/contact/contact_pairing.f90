@@ -121,7 +121,7 @@ module contact_pairing
       class(pairing_t), intent(inout) :: this
       type(model_t), intent(in) :: model
       real(wp), intent(in), contiguous :: u(:, :)
-    real(wp), intent(in) :: reach
+      real(wp), intent(in) :: reach
     end subroutine list_i
     !> Marks nodes of the model that listed rows may involve. carrier (nodes): of a node
     !> that is only looked at, the one it moves along with.

@@ -114,8 +114,7 @@ contains
       top = top - 1
       if (box_distance_2(tree, k, p) > reach**2) cycle
       if (tree%child(k) > 0) then
-        stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
-        top = top + 2
+        call push_children(tree, k, stack, top)
         cycle
       end if
       do i = tree%first(k), tree%last(k)
@@ -140,8 +139,7 @@ contains
       top = top - 1
       if (any(tree%low(:, k) > high .or. tree%high(:, k) < low)) cycle
       if (tree%child(k) > 0) then
-        stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
-        top = top + 2
+        call push_children(tree, k, stack, top)
         cycle
       end if
       do i = tree%first(k), tree%last(k)
@@ -174,11 +172,10 @@ contains
       top = top - 1
       if (box_distance_2(tree, k, p) >= best) cycle
       if (tree%child(k) > 0) then
-        stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
+        call push_children(tree, k, stack, top)
         if (box_distance_2(tree, tree%child(k), p) < &
             box_distance_2(tree, tree%child(k) + 1, p)) &
-            stack(top + 1:top + 2) = [tree%child(k) + 1, tree%child(k)]
-        top = top + 2
+            stack(top - 1:top) = [tree%child(k) + 1, tree%child(k)]
         cycle
       end if
       do i = tree%first(k), tree%last(k)
@@ -210,8 +207,7 @@ contains
       top = top - 1
       if (tree%high(1, k) < p(1) .or. tree%low(2, k) > p(2) .or. tree%high(2, k) < p(2)) cycle
       if (tree%child(k) > 0) then
-        stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
-        top = top + 2
+        call push_children(tree, k, stack, top)
         cycle
       end if
       do i = tree%first(k), tree%last(k)
@@ -224,6 +220,14 @@ contains
       end do
     end do
   end function winding_number
+
+  pure subroutine push_children(tree, k, stack, top)
+    type(tree_t), intent(in) :: tree
+    integer, intent(in) :: k
+    integer, intent(inout) :: stack(:), top
+    stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
+    top = top + 2
+  end subroutine push_children
 
   pure real(wp) function box_distance_2(tree, k, p)
     type(tree_t), intent(in) :: tree

@@ -11,7 +11,7 @@ module contact_whole
   implicit none
   private
   public :: deepest_node, deepest_inner_point, deepest_crossing, deepest_before_open, &
-      deepest_passage, accepted_overlap
+      deepest_passage, accepted_overlap, note_node
 
 contains
 
@@ -51,11 +51,20 @@ contains
       call distance_to_edges(tree, p, left_out, huge(one), distance, edge)
       if (edge == 0) cycle
       found = found .or. distance > end_tolerance*obstacle%length(edge)
-      call note_overlap(overlap, distance, min(obstacle%length(edge), &
-          shortest_edge_at(own, k, obstacle%length(edge))), &
-          own%node(k), obstacle%part_id(edge), .false.)
+      call note_node(overlap, distance, own, k, obstacle, edge)
     end do
   end subroutine deepest_node
+
+  !> Node k of `own` is depth [L] behind an edge of the obstacle; kept if it is the deepest.
+  pure subroutine note_node(overlap, depth, own, k, obstacle, edge)
+    type(overlap_t), intent(inout) :: overlap
+    real(wp), intent(in) :: depth
+    type(surface_t), intent(in) :: own, obstacle
+    integer, intent(in) :: k, edge
+    call note_overlap(overlap, depth, min(obstacle%length(edge), &
+        shortest_edge_at(own, k, obstacle%length(edge))), own%node(k), &
+        obstacle%part_id(edge), .false.)
+  end subroutine note_node
 
   !> Bodies whose sides lie on one line may overlap though no node is inside and no edges
   !> cross properly: points just inside the middle of every edge of `own` are asked too.
@@ -204,9 +213,7 @@ contains
       call passage_through(obstacle, near%edge(near%first(i):near%first(i + 1) - 1), x, u, du, &
           own%node(near%node(i)), depth, edge)
       if (edge == 0) cycle
-      call note_overlap(overlap, depth, min(obstacle%length(edge), &
-          shortest_edge_at(own, near%node(i), obstacle%length(edge))), &
-          own%node(near%node(i)), obstacle%part_id(edge), .false.)
+      call note_node(overlap, depth, own, near%node(i), obstacle, edge)
     end do
   end subroutine deepest_passage
 
