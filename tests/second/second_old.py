@@ -2,29 +2,20 @@
 pair, normals of the reference, the whole gap as offset."""
 
 import numpy as np
-from second_contact import DEPTH, END, edge_row, vertex_row
+from second_contact import DEPTH, END, Pair, edge_row, vertex_row
 
 
-class OldPair:
+class OldPair(Pair):
     """A pair of sides by the old rule; rows as those of the new rule, all of them exact."""
 
     def __init__(self, boundary, card, first, second, side_rule):
-        self.boundary, self.card = boundary, card
+        super().__init__(boundary, card, first, second, side_rule)
         mean = [boundary.length[s.edges].mean() if len(s.edges) else 0.0 for s in (first, second)]
         swap = side_rule == "B" or side_rule == "AUTO" and mean[1] < mean[0] * (1 - 1e-6)
         if card.kind == "node_to_surface":
             swap = False
         self.own, self.other = (second, first) if swap else (first, second)
         self.direction = int(swap)
-        self.nodes = np.union1d(first.nodes, second.nodes)
-        self.sides = first, second
-        edges = np.union1d(first.edges, second.edges)
-        self.shortest = boundary.length[edges].min()
-
-    def reach(self, motion):
-        mean = motion[self.nodes].mean(axis=0)
-        far = [np.max(np.hypot(*(motion[s.nodes] - mean).T)) for s in self.sides]
-        return self.shortest / 4 + 2 * sum(far)
 
     def rows(self, shape, _motion, reach):
         """Returns a row for each node that has an edge in front of it."""
