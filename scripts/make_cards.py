@@ -67,6 +67,16 @@ SCENE = (
         ("SET_SHELL", [{"SID": 2}, {"EID1": 12, "EID2": 13}]),
         ("SET_SHELL_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 3}]),
         ("SET_SEGMENT", [{"SID": 1}, {"N1": 112, "N2": 111}]),
+        ("SET_NODE_COLUMN", [{"SID": 4}, {"NID": 102}, {"NID": 103}]),
+        ("SET_PART_COLUMN", [{"SID": 4}, {"PID": 2}]),
+        ("SET_SHELL_COLUMN", [{"SID": 4}, {"EID": 11}]),
+        ("DEFINE_BOX", [{"BOXID": 1, "XMN": -1.0, "XMX": 9.0, "YMN": 0.2, "YMX": 9.0}]),
+        (
+            "SET_NODE_GENERAL",
+            [{"SID": 5}, {"OPTION": "PART", "E1": 2}, {"OPTION": "DBOX", "E1": 1}],
+        ),
+        ("SET_SHELL_GENERAL", [{"SID": 5}, {"OPTION": "PART", "E1": 2}]),
+        ("SET_SEGMENT_GENERAL", [{"SID": 2}, {"OPTION": "PART", "E1": 2}]),
         (
             "DEFINE_CURVE",
             [{"LCID": 1}, {"A": 0.0, "O": 0.0}, {"A": 0.01, "O": 1.0}, {"A": 1.0, "O": 1.0}],
@@ -102,8 +112,10 @@ SCENE = (
         ("RIGIDWALL_PLANAR", [{"NSID": 3}, {"XT": 2.2, "XH": 1.0, "FRIC": 0.1}]),
         ("BIPACT_PAIR", [{"CID": 1, "SIDE": "AUTO"}]),
         ("DATABASE_HISTORY_NODE", [{"ID1": 101}]),
+        ("DATABASE_HISTORY_NODE_ID", [{"ID1": 102, "HEADING": "middle"}]),
         ("DATABASE_HISTORY_NODE_SET", [{"ID1": 2}]),
         ("DATABASE_HISTORY_SHELL", [{"ID1": 1}]),
+        ("DATABASE_HISTORY_SHELL_ID", [{"ID1": 12, "HEADING": "a triangle"}]),
         ("DATABASE_HISTORY_SHELL_SET", [{"ID1": 2}]),
     ]
     + [

@@ -4,7 +4,9 @@ module deck_card
   use base_strings, only: to_text
   use deck_check, only: check_card, check_head
   use deck_data, only: deck_t, block_t, record_t
+  use deck_problems, only: add_note
   use deck_source, only: cursor_t, next_line
+  use deck_table, only: keyword_t
   implicit none
   private
   public :: start_block, read_cards
@@ -52,10 +54,12 @@ contains
     type(cursor_t), intent(inout) :: cursor
     integer, intent(in) :: head
     logical, intent(inout) :: more
-    integer :: card, row, count
-    logical :: head_is_next
+    integer :: card, row, count, solid_line
+    logical :: head_is_next, at_end
     row = deck%block(deck%blocks)%keyword
     head_is_next = head > 0
+    at_end = .false.
+    solid_line = 0
     card = 0
     count = 0
     do while (more)
@@ -67,6 +71,14 @@ contains
         if (card == k%cards .and. k%repeat_from == 1) then
           head_is_next = head > 0
           card = 0
+        end if
+        if (len_trim(line) == 0) then
+          call look_ahead(deck, cursor, solid_line, at_end)
+          if (is_between_cards(k, card, count, head_is_next, at_end)) then
+            call note_blank_line(deck, cursor)
+            more = next_line(deck%file(cursor%file), cursor)
+            cycle
+          end if
         end if
         if (head_is_next) then
           head_is_next = .false.
@@ -87,6 +99,49 @@ contains
     deck%block(deck%blocks)%last = deck%records
     call check_count(deck, row, count, card, head_is_next .and. count > 0)
   end subroutine read_cards
+
+  !> A blank line is no card where a card with fields that must be given comes next, or where
+  !> only further sets could follow: it stands between cards.
+  pure logical function is_between_cards(k, card, count, head_is_next, at_end) result(between)
+    type(keyword_t), intent(in) :: k
+    integer, intent(in) :: card, count
+    logical, intent(in) :: head_is_next, at_end
+    integer :: next
+    next = card + 1
+    if (card == k%cards) next = max(k%repeat_from, 1)
+    between = at_end .and. count >= k%required .and. (k%repeat_from /= 1 .or. card == 0)
+    if (head_is_next .or. between) return
+    between = any(k%card(next)%field(1:k%card(next)%fields)%required) &
+        .or. (count >= k%required .and. k%repeat_from > 1)
+  end function is_between_cards
+
+  !> Finds the next line that is not blank, and whether it is a keyword (the end of the file
+  !> counts as one). Looked for once per run of blank lines.
+  subroutine look_ahead(deck, cursor, line, is_keyword)
+    type(deck_t), intent(in) :: deck
+    type(cursor_t), intent(in) :: cursor
+    integer, intent(inout) :: line
+    logical, intent(inout) :: is_keyword
+    type(cursor_t) :: ahead
+    if (line > cursor%line) return
+    ahead = cursor
+    is_keyword = .true.
+    do while (next_line(deck%file(cursor%file), ahead))
+      line = ahead%line
+      associate (text => deck%file(cursor%file)%text(ahead%first:ahead%last))
+        if (len_trim(text) == 0) cycle
+        is_keyword = text(1:1) == '*'
+      end associate
+      return
+    end do
+  end subroutine look_ahead
+
+  subroutine note_blank_line(deck, cursor)
+    type(deck_t), intent(inout) :: deck
+    type(cursor_t), intent(in) :: cursor
+    call add_note(deck%problems, deck%file(cursor%file)%path// &
+        ': blank lines between cards are passed over')
+  end subroutine note_blank_line
 
   subroutine add_record(deck, cursor, card)
     type(deck_t), intent(inout) :: deck

@@ -4,7 +4,7 @@
 module deck_check
   use base_kinds, only: wp
   use base_strings, only: to_text, upper, position_of
-  use deck_data, only: deck_t, field_span, slice_field, find_parameter, convert
+  use deck_data, only: deck_t, field_span, slice_field, parameter_of, convert
   use deck_number, only: scan_integer
   use deck_problems, only: add_note, full
   use deck_table, only: field_t, card_t, field_tuning, field_fixed
@@ -63,6 +63,7 @@ contains
           end if
           do f = 1, card%fields
             call field_span(line, card%field(f), f, comma, block%long, first, last)
+            if (card%field(f)%kind == 'T') cycle
             if (last >= first) then
               call slice_field(line, card%field(f), f, comma, block%long, left, right)
               call check_field(deck, record, f, card%field(f), line(first:last), &
@@ -117,7 +118,7 @@ contains
     do k = 1, len(line)
       if (line(k:k) == ',') commas = commas + 1
     end do
-    if (commas < card%fields) return
+    if (commas < card%fields .or. card%field(card%fields)%kind == 'T') return
     if (commas == card%fields .and. len_trim(line(index(line, ',', back=.true.) + 1:)) == 0) &
         return
     call deck%complain(record, '', 'expected at most '//to_text(card%fields)// &
@@ -148,7 +149,9 @@ contains
     end do
   end subroutine check_columns
 
-  !> A run of characters across a border is fine only if one side fills its field.
+  !> A run of characters across a border is a value that has slipped when it is one value as a
+  !> whole and neither side fills its field. Else two values touch there, which is legal: each
+  !> keeps to its own columns.
   subroutine check_border(deck, record, line, left, right, border, long)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
@@ -156,18 +159,58 @@ contains
     type(field_t), intent(in) :: left, right
     integer, intent(in) :: border
     logical, intent(in) :: long
-    integer :: left_width, right_width
-    left_width = merge(20, left%width, long)
-    right_width = merge(20, right%width, long)
-    if (index(line(border - left_width + 1:border), ' ') == 0) return
-    if (border + right_width <= len(line)) then
-      if (index(line(border + 1:border + right_width), ' ') == 0) return
+    integer :: first, last
+    if (right%kind == 'T') return
+    first = border - merge(20, left%width, long) + 1
+    last = min(border + merge(20, right%width, long), len(line))
+    if (index(line(first:border), ' ') == 0) return
+    if (last == border + merge(20, right%width, long)) then
+      if (index(line(border + 1:last), ' ') == 0) return
     end if
-    call deck%complain(record, trim(right%name), &
-        'a value crosses the border between columns '//to_text(border)//' and '// &
+    first = first + index(line(first:border), ' ', back=.true.)
+    last = border - 1 + index(line(border + 1:last)//' ', ' ')
+    if (.not. (is_value(deck, record, left, line(first:last)) &
+        .or. is_value(deck, record, right, line(first:last)))) return
+    call deck%complain(record, trim(right%name), 'the value "'//line(first:last)// &
+        '" crosses the border between columns '//to_text(border)//' and '// &
         to_text(border + 1), 'fields '//trim(left%name)//' and '//trim(right%name)// &
         ' meet there; the card looks shifted')
   end subroutine check_border
+
+  !> Is a text a value that a field could hold? A number does not begin with a zero and another
+  !> digit: those are two numbers that touch.
+  pure logical function is_value(deck, record, field, text)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: record
+    type(field_t), intent(in) :: field
+    character(*), intent(in) :: text
+    real(wp) :: value
+    integer :: mark
+    mark = reference_mark(text)
+    if (mark > 0) then
+      is_value = parameter_of(deck, record, text(mark + 1:)) > 0
+    else if (field%kind == 'W') then
+      is_value = is_word(field, text)
+    else
+      call convert(text, field%kind, value, is_value)
+      if (is_value .and. len(text) > 1) &
+          is_value = text(1:1) /= '0' .or. scan(text(2:2), '0123456789') == 0
+    end if
+  end function is_value
+
+  !> Is a text among the words that a field takes?
+  pure logical function is_word(field, text)
+    type(field_t), intent(in) :: field
+    character(*), intent(in) :: text
+    is_word = index(field%words, '|'//upper(text)//'|') > 0
+  end function is_word
+
+  !> Where "&" stands in "&name" or "-&name"; 0 if the text is no reference to a parameter.
+  pure integer function reference_mark(text)
+    character(*), intent(in) :: text
+    reference_mark = scan(text(1:min(2, len(text))), '&')
+    if (reference_mark == 2) reference_mark = merge(2, 0, text(1:1) == '-')
+  end function reference_mark
 
   !> One field that is not blank: a parameter, or a value of its kind, range and class. written
   !> is the field as it stands, with its blanks.
@@ -177,15 +220,12 @@ contains
     type(field_t), intent(in) :: field
     character(*), intent(in) :: text, written
     integer :: row, mark
-    mark = scan(text(1:min(2, len(text))), '&')
-    if (mark == 2) then
-      if (text(1:1) /= '-') mark = 0
-    end if
+    mark = reference_mark(text)
     if (mark == 0) then
       call check_value(deck, record, field, text, written)
       return
     end if
-    row = find_parameter(deck, text(mark + 1:))
+    row = parameter_of(deck, record, text(mark + 1:))
     if (row == 0) then
       call deck%complain(record, trim(field%name), 'undefined parameter "'//text(mark:)//'"', &
           'define it with *PARAMETER before its use')
@@ -208,7 +248,7 @@ contains
     logical :: ok
     value = 0.0_wp
     if (field%kind == 'W') then
-      ok = len_trim(field%words) == 0 .or. index(field%words, '|'//upper(text)//'|') > 0
+      ok = len_trim(field%words) == 0 .or. is_word(field, text)
       if (.not. ok) then
         call deck%complain(record, trim(field%name), 'expected '//range_text(field)// &
             ', found "'//written//'"', 'other words are not available in this version')
@@ -281,7 +321,7 @@ contains
     if (field%class == field_tuning) then
       call add_note(deck%problems, '*'// &
           trim(deck%table%keyword(deck%block(deck%record(record)%block)%keyword)%name)//' '// &
-          trim(field%name)//' tunes another method and has no effect')
+          trim(field%name)//' has no effect ('//trim(field%help)//')')
     else if (.not. full(deck%problems)) then
       call deck%complain(record, trim(field%name), 'expected blank'//default_text(field)// &
           ', found "'//written//'"', &
@@ -310,7 +350,8 @@ contains
     case default
       text = 'a word'
       if (len_trim(field%words) == 0) return
-      text = 'one of '
+      text = ''
+      if (index(field%words(2:), '|') < len_trim(field%words) - 1) text = 'one of '
       do k = 2, len_trim(field%words) - 1
         if (field%words(k:k) == '|') text = text//', '
         if (field%words(k:k) /= '|') text = text//field%words(k:k)

@@ -6,7 +6,7 @@ module deck_data
   use base_kinds, only: wp
   use base_strings, only: to_text, upper
   use deck_number, only: scan_integer, scan_real
-  use deck_problems, only: problems_t, add_problem, render, full
+  use deck_problems, only: problems_t, line_t, add_problem, is_told, render, full
   use deck_source, only: source_file_t
   use deck_table, only: table_t, field_t, field_index
   implicit none
@@ -36,6 +36,9 @@ module deck_data
     character(10) :: name = ''
     character(24) :: text = ''
     character :: kind = ''          !< R, I or C
+    integer :: file = 0             !< 0 = visible in all files that are read after it
+    integer :: line = 0             !< of its definition; else: below it in the file and in
+                                    !< what the file includes there
     character(:), allocatable :: place
   end type parameter_t
 
@@ -49,6 +52,7 @@ module deck_data
     type(record_t), allocatable :: record(:)
     integer :: parameters = 0
     type(parameter_t), allocatable :: parameter(:)
+    type(line_t), allocatable :: folder(:)   !< where else included files are looked for
     type(problems_t) :: problems
   contains
     procedure :: real => deck_real
@@ -57,6 +61,7 @@ module deck_data
     procedure :: is_given => deck_given
     procedure :: number_at => deck_number_at
     procedure :: text_at => deck_text_at
+    procedure :: field_name => deck_field_name
     procedure :: next => deck_next
     procedure :: follow => deck_follow
     procedure :: complain => deck_complain
@@ -64,19 +69,48 @@ module deck_data
     procedure :: place => deck_place
   end type deck_t
 
-  public :: slice_field, field_span, find_parameter, convert
+  public :: slice_field, field_span, find_parameter, parameter_of, convert
 
 contains
 
-  !> Row of a parameter by its name, 0 if it is not defined (yet).
-  pure integer function find_parameter(deck, name)
+  !> Row of the parameter that a name means at a line of a file, 0 if it is not defined (yet).
+  !> One of *PARAMETER_LOCAL comes before one of all files.
+  pure integer function find_parameter(deck, name, file, line) result(row)
     type(deck_t), intent(in) :: deck
     character(*), intent(in) :: name
-    do find_parameter = 1, deck%parameters
-      if (deck%parameter(find_parameter)%name == upper(name)) return
+    integer, intent(in) :: file, line
+    character(len(name)) :: wanted
+    wanted = upper(name)
+    do row = deck%parameters, 1, -1
+      if (deck%parameter(row)%name /= wanted) cycle
+      if (is_visible(deck, deck%parameter(row), file, line)) return
     end do
-    find_parameter = 0
+    row = 0
   end function find_parameter
+
+  pure logical function is_visible(deck, parameter, file, line)
+    type(deck_t), intent(in) :: deck
+    type(parameter_t), intent(in) :: parameter
+    integer, intent(in) :: file, line
+    integer :: f, at
+    is_visible = parameter%file == 0
+    f = file
+    at = line
+    do while (f > 0 .and. .not. is_visible)
+      is_visible = f == parameter%file .and. parameter%line <= at
+      at = deck%file(f)%parent_line
+      f = deck%file(f)%parent
+    end do
+  end function is_visible
+
+  !> The same for a name on a card.
+  pure integer function parameter_of(deck, record, name)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: record
+    character(*), intent(in) :: name
+    parameter_of = find_parameter(deck, name, deck%block(deck%record(record)%block)%file, &
+        deck%record(record)%line)
+  end function parameter_of
 
   !> Number of a field of a record by its name.
   pure integer function locate(deck, record, name)
@@ -99,7 +133,7 @@ contains
     integer, intent(out) :: first
     integer, intent(out) :: last
     integer :: k, part
-    if (comma .and. field%kind /= 'T') then
+    if (comma .and. (field%kind /= 'T' .or. f > 1)) then
       first = 1
       do k = 2, f
         part = index(line(first:), ',')
@@ -110,10 +144,10 @@ contains
         first = first + part
       end do
       part = index(line(first:), ',')
-      last = merge(len(line), first + part - 2, part == 0)
-    else if (long .and. field%kind /= 'T') then
+      last = merge(len(line), first + part - 2, part == 0 .or. field%kind == 'T')
+    else if (long .and. (field%kind /= 'T' .or. f > 1)) then
       first = 20*(f - 1) + 1
-      last = 20*f
+      last = merge(first + field%width - 1, 20*f, field%kind == 'T')
     else
       first = field%first
       last = field%first + field%width - 1
@@ -151,10 +185,21 @@ contains
     if (kind == 'I') then
       call scan_integer(text, number, ok)
       value = real(number, wp)
+      if (.not. ok) call scan_whole(text, value, ok)
     else
       call scan_real(text, value, ok)
     end if
   end subroutine convert
+
+  !> A real number that is whole and fits an integer ("4.0", as some programs write).
+  pure subroutine scan_whole(text, value, ok)
+    character(*), intent(in) :: text
+    real(wp), intent(out) :: value
+    logical, intent(out) :: ok
+    call scan_real(text, value, ok)
+    if (ok) ok = scan(text, '.') > 0 .and. abs(value) <= real(huge(1), wp)
+    if (ok) ok = .not. abs(value - anint(value)) > 0.0_wp
+  end subroutine scan_whole
 
   !> Where field f of a record stands: row and card of the table, characters first:last of the
   !> text of its file without blanks around (last < first: blank).
@@ -191,7 +236,7 @@ contains
         text => this%file(this%block(this%record(record)%block)%file)%text)
       if (ok) then
         if (scan(text(first:min(first + 1, last)), '&') > 0) then
-          call convert(parameter_text(this, text(first:last)), field%kind, value, ok)
+          call convert(parameter_text(this, record, text(first:last)), field%kind, value, ok)
         else
           call convert(text(first:last), field%kind, value, ok)
         end if
@@ -203,13 +248,14 @@ contains
   end function deck_number_at
 
   !> "&name" or "-&name" as text; empty when there is no such parameter.
-  pure function parameter_text(deck, reference) result(text)
+  pure function parameter_text(deck, record, reference) result(text)
     type(deck_t), intent(in) :: deck
+    integer, intent(in) :: record
     character(*), intent(in) :: reference
     character(:), allocatable :: text
     integer :: row, mark
     mark = index(reference, '&')
-    row = find_parameter(deck, reference(mark + 1:))
+    row = parameter_of(deck, record, reference(mark + 1:))
     text = ''
     if (row == 0) return
     text = trim(deck%parameter(row)%text)
@@ -237,13 +283,23 @@ contains
       if (last < first) then
         text = trim(field%default)
       else if (field%kind /= 'T' .and. scan(whole(first:min(first + 1, last)), '&') > 0) then
-        text = parameter_text(this, whole(first:last))
+        text = parameter_text(this, record, whole(first:last))
       else
         text = whole(first:last)
       end if
       if (field%kind == 'W') text = upper(text)
     end associate
   end function deck_text_at
+
+  !> Name of field f of a record.
+  pure function deck_field_name(this, record, f) result(name)
+    class(deck_t), intent(in) :: this
+    integer, intent(in) :: record, f
+    character(:), allocatable :: name
+    associate (r => this%record(record))
+      name = trim(this%table%keyword(this%block(r%block)%keyword)%card(r%card)%field(f)%name)
+    end associate
+  end function deck_field_name
 
   !> A real field by name, its default where blank.
   pure real(wp) function deck_real(this, record, name)
@@ -342,6 +398,7 @@ contains
     character(:), allocatable :: head, advice
     integer :: f, first, last
     if (full(this%problems)) return
+    if (is_told(this%problems, this%place(record), what)) return
     first = 0
     last = 0
     advice = ''

@@ -6,7 +6,7 @@ module deck_help
       keyword_refused, field_honoured, field_tuning, field_fixed, field_ignored
   implicit none
   private
-  public :: write_usage, write_keywords
+  public :: write_usage, write_keywords, write_keyword
 
 contains
 
@@ -16,7 +16,7 @@ contains
     character(80), parameter :: line(18) = [character(80) :: &
       'bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--check | --plan]', &
       '       [--quiet]', &
-      'bipact --keywords | --help | --version', '', &
+      'bipact --keywords [NAME] | --help | --version', '', &
       '  DECK            input deck (a subset of the LS-DYNA keyword format)', &
       '  -o DIR          folder of the results; default: DECK''s name with .out', &
       '  -D name=value   replaces the value of a *PARAMETER of the deck', &
@@ -24,7 +24,7 @@ contains
       '  --check         reads and checks the deck; writes no file', &
       '  --plan          prints what the scene needs; writes no file', &
       '  --quiet         no summary and no progress line', &
-      '  --keywords      lists the keywords, their cards and fields', '', &
+      '  --keywords      lists the keywords, their cards and fields, or those of one', '', &
       'exit code: 0 done, 1 numerical failure, 2 deck error, 3 file or system error,', &
       '           4 stopped by a signal', '', &
       'Results as the deck asks: tables, field files, restart files; log, deck.echo.k.', '']
@@ -39,19 +39,10 @@ contains
   subroutine write_keywords(table, unit)
     type(table_t), intent(in) :: table
     integer, intent(in) :: unit
-    integer :: k, c
+    integer :: k
     do k = 1, table%n
-      associate (keyword => table%keyword(k))
-        if (keyword%class /= keyword_used .or. keyword%noted) cycle
-        write (unit, '(a)') '### *'//trim(keyword%name)
-        write (unit, '(a)') ''
-        write (unit, '(a)') capital(trim(keyword%help))//'.'//trim(options(keyword))
-        write (unit, '(a)') ''
-        if (keyword%name /= keyword%canonical) cycle
-        do c = 1, keyword%cards
-          call write_card(keyword, c, unit)
-        end do
-      end associate
+      if (table%keyword(k)%class == keyword_used .and. .not. table%keyword(k)%noted) &
+          call write_used(table%keyword(k), unit)
     end do
     write (unit, '(a)') '## Read without effect'
     write (unit, '(a)') ''
@@ -67,24 +58,69 @@ contains
     call write_list(table, keyword_refused, unit)
   end subroutine write_keywords
 
-  !> Names of one class, each with its reason.
+  !> One keyword by its row of the table.
+  subroutine write_keyword(table, row, unit)
+    type(table_t), intent(in) :: table
+    integer, intent(in) :: row, unit
+    associate (keyword => table%keyword(row))
+      select case (keyword%class)
+      case (keyword_used)
+        call write_used(keyword, unit)
+      case (keyword_skipped)
+        write (unit, '(a)') '*'//trim(keyword%name)//' is skipped with a note: '// &
+            trim(keyword%help)
+      case (keyword_refused)
+        write (unit, '(a)') '*'//trim(keyword%name)//' is not available in this version'
+        if (len_trim(keyword%help) > 0) write (unit, '(a)') trim(keyword%help)
+      end select
+    end associate
+  end subroutine write_keyword
+
+  !> A keyword with its cards; of another name for one, which it stands for.
+  subroutine write_used(keyword, unit)
+    type(keyword_t), intent(in) :: keyword
+    integer, intent(in) :: unit
+    integer :: c
+    write (unit, '(a)') '### *'//trim(keyword%name)
+    write (unit, '(a)') ''
+    write (unit, '(a)') capital(trim(keyword%help))//'.'//trim(options(keyword))
+    write (unit, '(a)') ''
+    if (keyword%name /= keyword%canonical) return
+    do c = 1, keyword%cards
+      call write_card(keyword, c, unit)
+    end do
+  end subroutine write_used
+
+  !> Names of one class, those of one reason together.
   subroutine write_list(table, class, unit)
     type(table_t), intent(in) :: table
     integer, intent(in) :: class, unit
-    character(:), allocatable :: line
-    integer :: k
+    character(:), allocatable :: names
+    logical, allocatable :: listed(:)
+    integer :: k, m
+    allocate (listed(table%n))
+    listed = .false.
     do k = 1, table%n
-      associate (keyword => table%keyword(k))
-        if (keyword%class /= class) then
-          if (.not. (keyword%noted .and. class == keyword_skipped)) cycle
-        end if
-        line = '- `*'//trim(keyword%name)//'`'
-        if (len_trim(keyword%help) > 0) line = line//': '//trim(keyword%help)
-        write (unit, '(a)') line
-      end associate
+      if (listed(k) .or. .not. is_of(table%keyword(k), class)) cycle
+      names = ''
+      do m = k, table%n
+        if (.not. is_of(table%keyword(m), class)) cycle
+        if (table%keyword(m)%help /= table%keyword(k)%help) cycle
+        names = names//', `*'//trim(table%keyword(m)%name)//'`'
+        listed(m) = .true.
+      end do
+      if (len_trim(table%keyword(k)%help) > 0) names = names//': '//trim(table%keyword(k)%help)
+      write (unit, '(a)') '- '//names(3:)
     end do
     write (unit, '(a)') ''
   end subroutine write_list
+
+  !> A keyword that is read and noted belongs to those that are skipped.
+  pure logical function is_of(keyword, class)
+    type(keyword_t), intent(in) :: keyword
+    integer, intent(in) :: class
+    is_of = keyword%class == class .or. (keyword%noted .and. class == keyword_skipped)
+  end function is_of
 
   pure function capital(text) result(out)
     character(*), intent(in) :: text
@@ -98,7 +134,8 @@ contains
     character(:), allocatable :: text
     text = ''
     if (keyword%may_title) text = text//' `_TITLE` adds a text card first.'
-    if (keyword%may_id) text = text//' `_ID` adds a card with id and heading first.'
+    if (keyword%may_id) text = text//trim(merge(' `_ID` or `_TITLE` adds', &
+        ' `_ID` adds            ', keyword%title_is_id))//' a card with id and heading first.'
     if (keyword%once) text = text//' At most once per deck.'
     if (keyword%repeat_from > 0) text = text//' Cards from '//to_text(keyword%repeat_from)// &
         ' on repeat.'
@@ -166,7 +203,7 @@ contains
     case (field_fixed)
       text = 'blank or default'
     case (field_ignored)
-      text = 'cannot matter in 2-D'
+      text = 'read, no effect'
     end select
   end function use_text
 

@@ -5,16 +5,17 @@ module deck_keywords
   use deck_keywords_contact, only: add_contact_keywords, add_output_keywords
   use deck_keywords_load, only: add_load_keywords
   use deck_keywords_mesh, only: add_mesh_keywords
-  use deck_keywords_other, only: add_skipped_keywords, add_refused_keywords
+  use deck_keywords_other, only: add_refused_keywords
   use deck_keywords_own, only: add_own_keywords
+  use deck_keywords_skipped, only: add_skipped_keywords
   use deck_table, only: table_t, add_keyword, add_card, add_field
   implicit none
   private
-  public :: fill_table
+  public :: fill_table, complete_table
 
 contains
 
-  !> Fills the table of keywords.
+  !> Fills the table with the keywords that are used.
   subroutine fill_table(table)
     type(table_t), intent(inout) :: table
     call add_frame(table)
@@ -23,9 +24,17 @@ contains
     call add_contact_keywords(table)
     call add_output_keywords(table)
     call add_own_keywords(table)
+  end subroutine fill_table
+
+  !> Adds the keywords that are skipped or refused, once: they are looked for when a name is
+  !> none of those that are used.
+  subroutine complete_table(table)
+    type(table_t), intent(inout) :: table
+    if (table%is_complete) return
     call add_skipped_keywords(table)
     call add_refused_keywords(table)
-  end subroutine fill_table
+    table%is_complete = .true.
+  end subroutine complete_table
 
   !> *PARAMETER, *INCLUDE, *KEYWORD and *END have no row: the reader itself obeys them.
   subroutine add_frame(table)
@@ -37,29 +46,29 @@ contains
     call add_card(table)
     call add_field(table, 'ENDTIM', 'R10 req [T] >0', 'end time')
     call add_field(table, 'ENDCYC', 'I10 =0 >=0', 'last step; 0 = no limit')
-    call add_field(table, 'DTMIN', 'R10 fixed', 'of explicit methods')
+    call add_field(table, 'DTMIN', 'R10 note', 'of explicit steps')
     call add_field(table, 'ENDENG', 'R10 =0.0 >=0', &
         'change of the energy ratio in per cent that fails the run; 0 = off')
-    call add_field(table, 'ENDMAS', 'R10 note', 'of mass scaling')
+    call add_field(table, 'ENDMAS', 'R10 note =1.0E8 0=d', 'of mass scaling')
     call add_field(table, 'NOSOL', 'I10 fixed')
     call add_keyword(table, 'CONTROL_IMPLICIT_GENERAL', 'implicit integration and its step', &
         required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'IMFLAG', 'I10 req >=0', '1 = implicit; nothing else is available')
     call add_field(table, 'DT0', 'R10 req [T] >0', 'time step')
-    call add_field(table, 'IMFORM', 'I10 note')
-    call add_field(table, 'NSBS', 'I10 fixed')
-    call add_field(table, 'IGS', 'I10 fixed')
-    call add_field(table, 'CNSTN', 'I10 fixed')
-    call add_field(table, 'FORM', 'I10 fixed')
+    call add_field(table, 'IMFORM', 'I10 note =2 0=d', 'of springback')
+    call add_field(table, 'NSBS', 'I10 fixed =1 0=d', 'steps of springback')
+    call add_field(table, 'IGS', 'I10 fixed =2 0=d', '2 = without geometric stiffness')
+    call add_field(table, 'CNSTN', 'I10 fixed', 'of plasticity')
+    call add_field(table, 'FORM', 'I10 fixed', 'of springback')
     call add_field(table, 'ZERO_V', 'I10 fixed')
     call add_keyword(table, 'CONTROL_IMPLICIT_DYNAMICS', &
         'inertia, and gamma and beta of NEWMARK', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'IMASS', 'I10 =0 >=0 <=1', &
         '1 = with inertia; 0 (static) is not available')
-    call add_field(table, 'GAMMA', 'R10 =0.5 >=0.5 <=1', 'gamma of NEWMARK')
-    call add_field(table, 'BETA', 'R10 =0.25 >=0 <=1', &
+    call add_field(table, 'GAMMA', 'R10 =0.5 0=d >=0.5 <=1', 'gamma of NEWMARK')
+    call add_field(table, 'BETA', 'R10 =0.25 0=d >=0 <=1', &
         'beta of NEWMARK, at least (gamma+1/2)^2/4')
     call add_field(table, 'TDYBIR', 'R10 fixed [T]')
     call add_field(table, 'TDYDTH', 'R10 fixed [T] =1.0E28 0=d')
@@ -68,7 +77,7 @@ contains
     call add_field(table, 'ALPHA', 'R10 fixed', 'of HHT, which is not available')
     call add_card(table)
     call add_field(table, 'PSID', 'I10 fixed')
-    call add_field(table, 'ANGLE', 'R10 note')
+    call add_field(table, 'ANGLE', 'R10 note =90.0 0=d', 'of part rotations')
     call add_solution(table)
   end subroutine add_frame
 
@@ -78,21 +87,44 @@ contains
         once=.true.)
     call add_card(table)
     call add_field(table, 'NSOLVR', 'I10 =1 fixed 0=d', '1 = linear; 12 is not available')
-    call add_field(table, 'ILIMIT', 'I10 note')
-    call add_field(table, 'MAXREF', 'I10 note', 'of nonlinear scenes')
-    call add_field(table, 'DCTOL', 'R10 note', 'of nonlinear scenes')
-    call add_field(table, 'ECTOL', 'R10 note', 'of nonlinear scenes')
-    call add_field(table, 'RCTOL', 'R10 note', 'of nonlinear scenes')
-    call add_field(table, 'LSTOL', 'R10 note')
-    call add_field(table, 'ABSTOL', 'R10 note', 'of nonlinear scenes')
+    call add_nonlinear(table, 'ILIMIT', 'I10 note =11 0=d')
+    call add_nonlinear(table, 'MAXREF', 'I10 note =15 0=d')
+    call add_nonlinear(table, 'DCTOL', 'R10 note =0.001 0=d')
+    call add_nonlinear(table, 'ECTOL', 'R10 note =0.01 0=d')
+    call add_nonlinear(table, 'RCTOL', 'R10 note =1.0E10 0=d')
+    call add_nonlinear(table, 'LSTOL', 'R10 note =0.9 0=d')
+    call add_nonlinear(table, 'ABSTOL', 'R10 note =1.0E-10 0=d')
     call add_card(table)
-    call add_field(table, 'DNORM', 'I10 note', 'of nonlinear scenes')
-    call add_field(table, 'DIVERG', 'I10 note')
-    call add_field(table, 'ISTIF', 'I10 note')
-    call add_field(table, 'NLPRINT', 'I10 note')
-    call add_field(table, 'NLNORM', 'R10 note')
-    call add_field(table, 'D3ITCTL', 'I10 note')
-    call add_field(table, 'CPCHK', 'I10 note')
+    call add_nonlinear(table, 'DNORM', 'I10 note =2 0=d')
+    call add_nonlinear(table, 'DIVERG', 'I10 note =1 0=d')
+    call add_nonlinear(table, 'ISTIF', 'I10 note =1 0=d')
+    call add_nonlinear(table, 'NLPRINT', 'I10 note')
+    call add_nonlinear(table, 'NLNORM', 'R10 note =2.0 0=d')
+    call add_nonlinear(table, 'D3ITCTL', 'I10 note')
+    call add_nonlinear(table, 'CPCHK', 'I10 note')
+    call add_card(table)
+    call add_field(table, 'ARCCTL', 'I10 fixed', 'arc length')
+    call add_nonlinear(table, 'ARCDIR', 'I10 note =1 0=d')
+    call add_nonlinear(table, 'ARCLEN', 'R10 note')
+    call add_nonlinear(table, 'ARCMTH', 'I10 note =1 0=d')
+    call add_nonlinear(table, 'ARCDMP', 'I10 note =2 0=d')
+    call add_nonlinear(table, 'ARCPSI', 'R10 note')
+    call add_nonlinear(table, 'ARCALF', 'R10 note')
+    call add_nonlinear(table, 'ARCTIM', 'R10 note')
+    call add_card(table)
+    call add_nonlinear(table, 'LSMTD', 'I10 note =4 0=d')
+    call add_nonlinear(table, 'LSDIR', 'I10 note =2 0=d')
+    call add_nonlinear(table, 'IRAD', 'R10 note')
+    call add_nonlinear(table, 'SRAD', 'R10 note')
+    call add_nonlinear(table, 'AWGT', 'R10 note')
+    call add_nonlinear(table, 'SRED', 'R10 note')
   end subroutine add_solution
+
+  !> A field that only solves with iterations over the deformation would use.
+  subroutine add_nonlinear(table, name, spec)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, spec
+    call add_field(table, name, spec, 'of nonlinear solves')
+  end subroutine add_nonlinear
 
 end module deck_keywords

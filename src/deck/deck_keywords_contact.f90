@@ -23,7 +23,7 @@ contains
   subroutine add_contact(table, name, help)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name, help
-    call add_keyword(table, name, help, id=.true., required=1)
+    call add_keyword(table, name, help, id=.true., title_is_id=.true., required=1)
     call add_card(table)
     if (index(name, 'SINGLE_SURFACE') > 0) then
       call add_field(table, 'SURFA', 'I10 =0 >=0', 'part set; 0 = all parts')
@@ -32,39 +32,39 @@ contains
       call add_field(table, 'SURFA', 'I10 req', 'part set; < 0: node set')
       call add_field(table, 'SURFB', 'I10 req', 'part set; < 0: node set')
     end if
-    call add_field(table, 'SFACT', 'R10 note', 'of penalty methods')
-    call add_field(table, 'FREQ', 'I10 note', 'of penalty methods')
+    call add_field(table, 'SFACT', 'R10 note =1.0 0=d', 'of penalty methods')
+    call add_field(table, 'FREQ', 'I10 note =50 0=d', 'of penalty methods')
     call add_field(table, 'FS', 'R10 =0.0 >=0', 'coefficient of friction mu')
     call add_field(table, 'FD', 'R10 =0.0 >=0', 'has no effect while DC = 0')
     call add_field(table, 'DC', 'R10 fixed', 'decay of friction with velocity')
     call add_card(table)
     call add_field(table, 'TBIRTH', 'R10 =0.0 [T]', 'contact is active from this time')
     call add_field(table, 'TDEATH', 'R10 =1.0E20 0=d [T]', 'to this time')
-    call add_field(table, 'SOA', 'R10 note')
-    call add_field(table, 'SOB', 'R10 note')
-    call add_field(table, 'NDA', 'I10 note')
-    call add_field(table, 'NDB', 'I10 note')
-    call add_field(table, 'COF', 'I10 note')
+    call add_field(table, 'SOA', 'R10 note =1.0 0=d', 'offset of shells')
+    call add_field(table, 'SOB', 'R10 note =1.0 0=d', 'offset of shells')
+    call add_field(table, 'NDA', 'I10 note', 'normals come from the elements')
+    call add_field(table, 'NDB', 'I10 note', 'normals come from the elements')
+    call add_field(table, 'COF', 'I10 note', 'gaps of penalty methods')
     call add_field(table, 'INIT', 'I10 fixed')
     call add_card(table)
     call add_field(table, 'VC', 'R10 fixed', 'viscous friction')
-    call add_field(table, 'VDC', 'R10 note', 'of penalty methods')
+    call add_field(table, 'VDC', 'R10 note =10.0 0=d', 'of penalty methods')
     call add_field(table, 'IPF', 'I10 fixed')
     call add_field(table, 'SLIDE', 'I10 fixed')
-    call add_field(table, 'ISTIFF', 'I10 note')
+    call add_field(table, 'ISTIFF', 'I10 note', 'of penalty methods')
     call add_field(table, 'TIEDGAP', 'R10 fixed')
     call add_field(table, 'IGAPCL', 'I10 fixed')
     call add_field(table, 'TIETYP', 'I10 fixed')
     call add_card(table)
     call add_field(table, 'SLDSOA', 'R10 fixed')
     call add_field(table, 'SLDSOB', 'R10 fixed')
-    call add_field(table, 'TDPEN', 'R10 note')
+    call add_field(table, 'TDPEN', 'R10 note', 'of penalty methods')
   end subroutine add_contact
 
   subroutine add_wall(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'RIGIDWALL_PLANAR', 'a rigid plane that does not move', &
-        id=.true., required=2)
+        id=.true., title_is_id=.true., required=2)
     call add_card(table)
     call add_field(table, 'NSID', 'I10 =0 >=0', 'node set in front of the wall; 0 = all nodes')
     call add_field(table, 'NSIDEX', 'I10 fixed')
@@ -72,7 +72,7 @@ contains
     call add_field(table, 'OFFSET', 'R10 fixed', 'the node set says which nodes')
     call add_field(table, 'BIRTH', 'R10 =0.0 [T]', 'the wall is there from this time')
     call add_field(table, 'DEATH', 'R10 =1.0E20 0=d [T]', 'to this time')
-    call add_field(table, 'RWKSF', 'R10 note', 'of penalty methods')
+    call add_field(table, 'RWKSF', 'R10 note =1.0 0=d', 'of penalty methods')
     call add_card(table)
     call add_field(table, 'XT', 'R10 =0.0 [L]', 'a point T on the wall')
     call add_field(table, 'YT', 'R10 =0.0 [L]', 'the same')
@@ -90,19 +90,24 @@ contains
     type(table_t), intent(inout) :: table
     character(7), parameter :: names(9) = ['GLSTAT ', 'MATSUM ', 'NODOUT ', 'ELOUT  ', &
         'RCFORC ', 'RWFORC ', 'SLEOUT ', 'SPCFORC', 'NCFORC ']
-    integer :: k
+    integer :: k, m
     do k = 1, size(names)
       call add_keyword(table, 'DATABASE_'//trim(names(k)), 'table '//trim(names(k)), &
           required=1, once=.true.)
       call add_card(table)
       call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
-      call add_field(table, 'BINARY', 'I10 note', 'tables are text')
-      call add_field(table, 'LCUR', 'I10 fixed')
-      call add_field(table, 'IOOPT', 'I10 note')
+      call add_field(table, 'BINARY', 'I10 note =1 0=d', 'tables are text')
+      call add_field(table, 'LCUR', 'I10 fixed', 'a curve of intervals')
+      call add_field(table, 'IOOPT', 'I10 note =1 0=d', 'of a curve of intervals')
+      do m = 1, 4
+        call add_field(table, 'OPTION'//achar(48 + m), 'R10 note', 'columns are fixed')
+      end do
     end do
     call add_history(table, 'DATABASE_HISTORY_NODE', 'node', 'NODOUT')
     call add_history(table, 'DATABASE_HISTORY_NODE_SET', 'node set', 'NODOUT')
+    call add_named_history(table, 'DATABASE_HISTORY_NODE_ID', 'node', 'NODOUT')
     call add_history(table, 'DATABASE_HISTORY_SHELL', 'element', 'ELOUT')
+    call add_named_history(table, 'DATABASE_HISTORY_SHELL_ID', 'element', 'ELOUT')
     call add_history(table, 'DATABASE_HISTORY_SHELL_SET', 'element set', 'ELOUT')
   end subroutine add_output_keywords
 
@@ -116,5 +121,15 @@ contains
       call add_field(table, 'ID'//achar(48 + k), 'I10 =0 >=0', what)
     end do
   end subroutine add_history
+
+  subroutine add_named_history(table, name, what, which)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, what, which
+    call add_keyword(table, name, what//'s of '//which//', one a card with a heading', &
+        repeat_from=1, required=1)
+    call add_card(table)
+    call add_field(table, 'ID1', 'I10 req >0', what)
+    call add_field(table, 'HEADING', 'T70', 'any text')
+  end subroutine add_named_history
 
 end module deck_keywords_contact

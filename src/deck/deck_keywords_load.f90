@@ -17,8 +17,8 @@ contains
     call add_support(table, 'BOUNDARY_SPC_NODE', 'NID', 'node')
     call add_motion(table, 'BOUNDARY_PRESCRIBED_MOTION_SET', 'NSID', 'node set')
     call add_motion(table, 'BOUNDARY_PRESCRIBED_MOTION_NODE', 'NID', 'node')
-    call add_load(table, 'LOAD_NODE_SET', 'NSID', 'node set')
-    call add_load(table, 'LOAD_NODE_POINT', 'NID', 'node')
+    call add_load(table, 'LOAD_NODE_SET', 'NSID', 'node set', 'a force on each node of a set')
+    call add_load(table, 'LOAD_NODE_POINT', 'NID', 'node', 'a force on a node')
     call add_segment_loads(table)
     call add_body_load(table, 'LOAD_BODY_X')
     call add_body_load(table, 'LOAD_BODY_Y')
@@ -65,7 +65,7 @@ contains
     call add_field(table, 'VX', 'R10 =0.0 [L/T]', 'velocity')
     call add_field(table, 'VY', 'R10 =0.0 [L/T]', 'velocity')
     call add_field(table, 'VZ', 'R10 fixed [L/T]', 'the model is plane')
-    call add_field(table, 'IVATN', 'I10 note')
+    call add_field(table, 'IVATN', 'I10 note', 'of rigid parts')
     call add_field(table, 'ICID', 'I10 fixed')
     call add_card(table)
     call add_field(table, 'XC', 'R10 =0.0 [L]', 'centre of rotation')
@@ -111,10 +111,10 @@ contains
     call add_field(table, 'BIRTH', 'R10 =0.0 [T] >=0', 'free before this time')
   end subroutine add_motion
 
-  subroutine add_load(table, name, id, what)
+  subroutine add_load(table, name, id, what, help)
     type(table_t), intent(inout) :: table
-    character(*), intent(in) :: name, id, what
-    call add_keyword(table, name, 'force on every node of a '//what, repeat_from=1, required=1)
+    character(*), intent(in) :: name, id, what, help
+    call add_keyword(table, name, help, repeat_from=1, id=.true., required=1)
     call add_card(table)
     call add_field(table, id, 'I10 req >0', what)
     call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
@@ -129,11 +129,12 @@ contains
   subroutine add_segment_loads(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'LOAD_SEGMENT_SET', 'pressure on a segment set', &
-        repeat_from=1, required=1)
+        repeat_from=1, id=.true., required=1)
     call add_card(table)
     call add_field(table, 'SSID', 'I10 req >0', 'segment set')
     call add_pressure(table)
-    call add_keyword(table, 'LOAD_SEGMENT', 'pressure on a segment', repeat_from=1, required=1)
+    call add_keyword(table, 'LOAD_SEGMENT', 'pressure on a segment', repeat_from=1, &
+        id=.true., required=1)
     call add_card(table)
     call add_pressure(table)
     call add_field(table, 'N1', 'I10 req >0', 'node of an exposed element edge')
@@ -172,13 +173,15 @@ contains
         required=2, repeat_from=2)
     call add_card(table)
     call add_field(table, 'LCID', 'I10 req >0', 'curve number')
-    call add_field(table, 'SIDR', 'I10 fixed')
+    call add_field(table, 'SIDR', 'I10 =0 >=0 <=2', &
+        '0 or 2; 1 (dynamic relaxation alone) is not available')
     call add_field(table, 'SFA', 'R10 =1.0 0=d >0', 'scale of the abscissa')
     call add_field(table, 'SFO', 'R10 =1.0 0=d', 'scale of the ordinate')
-    call add_field(table, 'OFFA', 'R10 =0.0', 'offset of the abscissa')
+    call add_field(table, 'OFFA', 'R10 =0.0', &
+        'offset of the abscissa; > 0: the curve is 0 up to .999 OFFA')
     call add_field(table, 'OFFO', 'R10 =0.0', 'offset of the ordinate')
     call add_field(table, 'DATTYP', 'I10 fixed')
-    call add_field(table, 'LCINT', 'I10 note')
+    call add_field(table, 'LCINT', 'I10 note', 'points of a resampled curve')
     call add_card(table)
     call add_field(table, 'A', 'R20 =0.0 [T]', 'abscissa, increasing')
     call add_field(table, 'O', 'R20 =0.0', 'ordinate; outside the range it is constant')

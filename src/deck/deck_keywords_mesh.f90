@@ -21,6 +21,13 @@ contains
     call add_list_set(table, 'SET_SHELL_LIST', 'SET_SHELL', 'EID', 'element')
     call add_range_set(table, 'SET_SHELL_LIST_GENERATE', 'element')
     call add_segment_set(table)
+    call add_column_set(table, 'SET_NODE_COLUMN', 'NID', 'node')
+    call add_column_set(table, 'SET_PART_COLUMN', 'PID', 'part')
+    call add_column_set(table, 'SET_SHELL_COLUMN', 'EID', 'element')
+    call add_general_set(table, 'SET_NODE_GENERAL', 'node', 'NODE')
+    call add_general_set(table, 'SET_SHELL_GENERAL', 'element', 'ELEM')
+    call add_general_set(table, 'SET_SEGMENT_GENERAL', 'exposed edge', 'SEG')
+    call add_box(table)
   end subroutine add_mesh_keywords
 
   subroutine add_nodes_and_elements(table)
@@ -32,8 +39,9 @@ contains
     call add_field(table, 'X', 'R16 =0.0 [L]', 'coordinate')
     call add_field(table, 'Y', 'R16 =0.0 [L]', 'coordinate')
     call add_field(table, 'Z', 'R16 =0.0 [L]', 'the same for all nodes of a plane model')
-    call add_field(table, 'TC', 'I8 fixed', 'use *BOUNDARY_SPC')
-    call add_field(table, 'RC', 'I8 fixed')
+    call add_field(table, 'TC', 'I8 =0 >=0 <=7', &
+        'held: 1 x, 2 y, 3 z, 4 x y, 5 y z, 6 z x, 7 x y z')
+    call add_field(table, 'RC', 'I8 note >=0 <=7', 'nodes of plane elements do not rotate')
     call add_keyword(table, 'ELEMENT_SHELL', 'plane elements, counter-clockwise', repeat_from=1)
     call add_card(table)
     call add_field(table, 'EID', 'I8 req >0', 'element number')
@@ -67,31 +75,32 @@ contains
     call add_field(table, 'HEADING', 'T70', 'any text')
     call add_card(table)
     call add_field(table, 'PID', 'I10 req >0', 'part number')
-    call add_field(table, 'SECID', 'I10 req >0', 'section')
-    call add_field(table, 'MID', 'I10 req >0', 'material')
+    call add_field(table, 'SECID', 'I10 =0 >=0', 'section')
+    call add_field(table, 'MID', 'I10 =0 >=0', 'material')
     call add_field(table, 'EOSID', 'I10 fixed')
-    call add_field(table, 'HGID', 'I10 fixed', 'elements are fully integrated')
+    call add_field(table, 'HGID', 'I10 note', 'elements are fully integrated')
     call add_field(table, 'GRAV', 'I10 fixed')
     call add_field(table, 'ADPOPT', 'I10 fixed')
-    call add_field(table, 'TMID', 'I10 fixed')
+    call add_field(table, 'TMID', 'I10 note', 'of thermal analysis')
     call add_keyword(table, 'SECTION_SHELL', 'plane strain or stress, thickness', &
         title=.true., repeat_from=1, required=2)
     call add_card(table)
     call add_field(table, 'SECID', 'I10 req >0', 'section number')
     call add_field(table, 'ELFORM', 'I10 =2', '12 plane stress, 13 plane strain')
-    call add_field(table, 'SHRF', 'R10 note')
-    call add_field(table, 'NIP', 'I10 =4', '4 = 2 x 2 Gauss points, which blank means here too')
-    call add_field(table, 'PROPT', 'R10 note')
+    call add_field(table, 'SHRF', 'R10 note =1.0 0=d', 'of shells')
+    call add_field(table, 'NIP', 'I10 =4 0=d', &
+        '4 = 2 x 2 Gauss points, which blank means here too')
+    call add_field(table, 'PROPT', 'R10 note =1.0 0=d', 'of printing')
     call add_field(table, 'QR/IRID', 'R10 fixed')
     call add_field(table, 'ICOMP', 'I10 fixed')
-    call add_field(table, 'SETYP', 'I10 note')
+    call add_field(table, 'SETYP', 'I10 note =1 0=d', 'of thermal shells')
     call add_card(table)
     call add_field(table, 'T1', 'R10 =1.0 0=d [L] >=0', 'thickness')
     call add_field(table, 'T2', 'R10 [L]', 'equal to T1, or blank')
     call add_field(table, 'T3', 'R10 [L]', 'equal to T1, or blank')
     call add_field(table, 'T4', 'R10 [L]', 'equal to T1, or blank')
     call add_field(table, 'NLOC', 'R10 fixed')
-    call add_field(table, 'MAREA', 'R10 note')
+    call add_field(table, 'MAREA', 'R10 fixed', 'mass without structure')
     call add_field(table, 'IDOF', 'R10 fixed')
     call add_field(table, 'EDGSET', 'I10 fixed')
   end subroutine add_parts
@@ -106,6 +115,7 @@ contains
     call add_field(table, 'PR', 'R10 =0.0 >-1 <0.5', 'Poisson ratio')
     call add_field(table, 'DA', 'R10 fixed')
     call add_field(table, 'DB', 'R10 fixed')
+    call add_field(table, 'K', 'R10 fixed', 'of the fluid option')
     call add_alias(table, 'MAT_001')
   end subroutine add_materials
 
@@ -117,8 +127,8 @@ contains
     do k = 1, 4
       call add_field(table, 'DA'//achar(48 + k), 'R10 fixed')
     end do
-    call add_field(table, 'SOLVER', 'W10 fixed =MECH')
-    call add_field(table, 'ITS', 'W10 fixed')
+    call add_field(table, 'SOLVER', 'W10 fixed =MECH |MECH|')
+    call add_field(table, 'ITS', 'I10 ignored >=0 <=1')
   end subroutine add_set_head
 
   subroutine add_list_set(table, name, short, member, what)
@@ -148,6 +158,50 @@ contains
       call add_field(table, 'B'//achar(48 + k)//'END', 'I10 =0 >=0', 'its last '//what)
     end do
   end subroutine add_range_set
+
+  subroutine add_column_set(table, name, member, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, member, what
+    integer :: k
+    call add_keyword(table, name, what//' set, one '//what//' a card', title=.true., &
+        required=2, repeat_from=2)
+    call add_set_head(table)
+    call add_card(table)
+    call add_field(table, member, 'I10 req >0', what)
+    do k = 1, 4
+      call add_field(table, 'A'//achar(48 + k), 'R10 fixed')
+    end do
+  end subroutine add_column_set
+
+  !> one: the word that names single members.
+  subroutine add_general_set(table, name, what, one)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, what, one
+    integer :: k
+    call add_keyword(table, name, what//' set by clauses, obeyed in their order', &
+        title=.true., required=2, repeat_from=2)
+    call add_set_head(table)
+    call add_card(table)
+    call add_field(table, 'OPTION', 'W10 req |ALL|'//one//'|D'//one//'|PART|DPART|BOX|DBOX|', &
+        'what to add; with D: to take away')
+    do k = 1, 7
+      call add_field(table, 'E'//achar(48 + k), 'I10 =0 >=0', 'a number; zeros are padding')
+    end do
+  end subroutine add_general_set
+
+  subroutine add_box(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'DEFINE_BOX', 'a box along the axes, for sets', title=.true., &
+        required=1)
+    call add_card(table)
+    call add_field(table, 'BOXID', 'I10 req >0', 'box number')
+    call add_field(table, 'XMN', 'R10 =0.0 [L]', 'smallest x')
+    call add_field(table, 'XMX', 'R10 =0.0 [L]', 'largest x')
+    call add_field(table, 'YMN', 'R10 =0.0 [L]', 'smallest y')
+    call add_field(table, 'YMX', 'R10 =0.0 [L]', 'largest y')
+    call add_field(table, 'ZMN', 'R10 =0.0 [L]', 'smallest z')
+    call add_field(table, 'ZMX', 'R10 =0.0 [L]', 'largest z')
+  end subroutine add_box
 
   subroutine add_segment_set(table)
     type(table_t), intent(inout) :: table

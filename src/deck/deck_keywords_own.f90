@@ -114,6 +114,14 @@ contains
     call add_field(table, 'BEAM', 'I10 ignored')
     call add_field(table, 'NPLTC', 'I10 fixed', 'a number of frames')
     call add_field(table, 'PSETID', 'I10 =0 >=0', 'part set; 0 = all parts')
+    call add_field(table, 'CID', 'I10 fixed', 'another coordinate system')
+    call add_card(table)
+    call add_field(table, 'IOOPT', 'I10 note', 'of a curve of intervals')
+    call add_field(table, 'RATE', 'R10 note', 'of filters')
+    call add_field(table, 'CUTOFF', 'R10 note', 'of filters')
+    call add_field(table, 'WINDOW', 'R10 note', 'of filters')
+    call add_field(table, 'TYPE', 'I10 note', 'of filters')
+    call add_field(table, 'PSET', 'I10 note', 'of filters')
   end subroutine add_storage_keywords
 
 end module deck_keywords_own

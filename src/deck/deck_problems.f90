@@ -14,13 +14,14 @@ module deck_problems
   type, public :: problems_t
     integer :: count = 0
     type(line_t) :: problem(problem_limit)
+    type(line_t) :: kind(problem_limit)   !< place and kind of those that one line may repeat
     integer :: note_count = 0
     type(line_t), allocatable :: note(:)
     integer :: warning_count = 0
     type(line_t), allocatable :: warning(:)
   end type problems_t
 
-  public :: add_problem, add_note, add_warning, render, full
+  public :: add_problem, add_note, add_warning, is_told, render, full
 
 contains
 
@@ -38,6 +39,37 @@ contains
     problems%count = problems%count + 1
     problems%problem(problems%count)%text = text
   end subroutine add_problem
+
+  !> Was a problem of this kind told of this line before? Keeps it as the kind of the next one
+  !> if not. Two texts are of one kind when they differ in digits and quoted texts alone.
+  logical function is_told(problems, place, text)
+    type(problems_t), intent(inout) :: problems
+    character(*), intent(in) :: place, text
+    character(:), allocatable :: kind
+    integer :: k
+    is_told = .false.
+    if (full(problems)) return
+    kind = place//': '//kind_of(text)
+    do k = 1, problems%count
+      if (.not. allocated(problems%kind(k)%text)) cycle
+      is_told = is_told .or. problems%kind(k)%text == kind
+    end do
+    if (.not. is_told) problems%kind(problems%count + 1)%text = kind
+  end function is_told
+
+  pure function kind_of(text) result(kind)
+    character(*), intent(in) :: text
+    character(:), allocatable :: kind
+    logical :: quoted
+    integer :: k
+    kind = ''
+    quoted = .false.
+    do k = 1, len(text)
+      if (text(k:k) == '"') quoted = .not. quoted
+      if (quoted .or. index('0123456789', text(k:k)) > 0) cycle
+      kind = kind//text(k:k)
+    end do
+  end function kind_of
 
   !> Adds a note; the same note is kept once.
   subroutine add_note(problems, text)
@@ -84,7 +116,11 @@ contains
     character(*), parameter :: indent = '    '
     integer, parameter :: widest = 200
     text = printable(place)
-    if (first > 0) text = text//', columns '//to_text(first)//'-'//to_text(last)
+    if (first > 0 .and. last > first) then
+      text = text//', columns '//to_text(first)//'-'//to_text(last)
+    else if (first > 0) then
+      text = text//', column '//to_text(first)
+    end if
     text = text//': '//printable(what)
     if (len(card) > 0) text = text//new_line('a')//indent// &
         printable(card(1:min(len(card), widest)))

@@ -3,13 +3,17 @@
 !> problem with its place; nothing is dropped in silence.
 module deck_reader
   use base_status, only: status_t, fail, failed, status_deck
-  use base_strings, only: upper, edit_distance, folder_of, join_path, to_text
+  use base_strings, only: upper, to_text
   use deck_card, only: start_block, read_cards
   use deck_data, only: deck_t
-  use deck_parameter, only: override_t, read_parameters, report_unused_overrides
+  use deck_folders, only: read_folders, read_file_name, find_include
+  use deck_keywords, only: complete_table
+  use deck_parameter, only: override_t, read_parameters, read_expressions, &
+      report_unused_overrides
   use deck_problems, only: add_note
   use deck_source, only: cursor_t, load_file, next_line
-  use deck_table, only: find_keyword, family_of, keyword_used, keyword_skipped, keyword_refused
+  use deck_table, only: find_keyword, find_nearest, family_of, keyword_used, &
+      keyword_skipped, keyword_refused
   implicit none
   private
   integer, parameter :: include_depth = 16
@@ -68,10 +72,18 @@ contains
       case ('KEYWORD')
         call read_options(deck, cursor, long)
         more = next_line(deck%file(file), cursor)
+      case ('KEYWORD_ID')
+        call add_note(deck%problems, '*KEYWORD_ID is skipped: it names the run, no more')
+        call skip_cards(deck, cursor, more)
       case ('INCLUDE')
         call read_include(deck, cursor, depth, overrides, long, more)
-      case ('PARAMETER')
-        call read_parameters(deck, cursor, overrides, long_here, more)
+      case ('INCLUDE_PATH', 'INCLUDE_PATH_RELATIVE')
+        call read_folders(deck, cursor, name, more)
+      case ('PARAMETER', 'PARAMETER_LOCAL')
+        call read_parameters(deck, cursor, overrides, long_here, name /= 'PARAMETER', more)
+      case ('PARAMETER_EXPRESSION', 'PARAMETER_EXPRESSION_LOCAL')
+        call read_expressions(deck, cursor, overrides, long_here, &
+            name /= 'PARAMETER_EXPRESSION', more)
       case default
         call read_block(deck, cursor, name, long_here, more)
       end select
@@ -157,7 +169,10 @@ contains
     logical :: used
     call match_name(deck, name, row, head)
     used = .false.
-    if (row == 0) then
+    if (name == 'TITLE' .and. deck%file(cursor%file)%parent > 0) then
+      call add_note(deck%problems, deck%file(cursor%file)%path// &
+          ': *TITLE of an included file is passed over')
+    else if (row == 0) then
       call unknown_keyword(deck, cursor, name)
     else
       used = deck%table%keyword(row)%class == keyword_used
@@ -171,42 +186,66 @@ contains
       end select
     end if
     if (used) call start_block(deck, cursor, row, name, long)
-    more = next_line(deck%file(cursor%file), cursor)
     if (used) then
+      more = next_line(deck%file(cursor%file), cursor)
       call read_cards(deck, cursor, head, more)
     else
-      do while (more)
-        if (is_keyword(deck, cursor)) exit
-        more = next_line(deck%file(cursor%file), cursor)
-      end do
+      call skip_cards(deck, cursor, more)
     end if
   end subroutine read_block
 
+  !> Moves the cursor to the next keyword.
+  subroutine skip_cards(deck, cursor, more)
+    type(deck_t), intent(in) :: deck
+    type(cursor_t), intent(inout) :: cursor
+    logical, intent(out) :: more
+    do
+      more = next_line(deck%file(cursor%file), cursor)
+      if (.not. more) return
+      if (is_keyword(deck, cursor)) return
+    end do
+  end subroutine skip_cards
+
   !> Row of the table for a name with its option _TITLE or _ID; then families of names.
-  pure subroutine match_name(deck, name, row, head)
+  subroutine match_name(deck, name, row, head)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: name
+    integer, intent(out) :: row, head
+    integer :: nearest, distance, prefix
+    call match_row(deck, name, row, head)
+    if (row > 0) return
+    call complete_table(deck%table)
+    call match_row(deck, name, row, head)
+    if (row > 0 .or. base_of(deck, name) > 0) return
+    ! A slip of the pen must not pass for a keyword of a family that is refused.
+    row = family_of(deck%table, name)
+    if (row == 0) return
+    prefix = index(deck%table%keyword(row)%name, '*') - 1
+    call find_nearest(deck%table, name, nearest, distance)
+    if (distance <= min(2, (len(name) - prefix)/4) &
+        .and. deck%table%keyword(nearest)%class /= keyword_refused) row = 0
+  end subroutine match_name
+
+  pure subroutine match_row(deck, name, row, head)
     type(deck_t), intent(in) :: deck
     character(*), intent(in) :: name
     integer, intent(out) :: row, head
-    integer :: nearest, distance
     head = head_none
     row = find_keyword(deck%table, name)
     if (row > 0) return
     if (ends_with(name, '_TITLE')) then
       row = find_keyword(deck%table, name(1:len(name) - 6))
-      if (row > 0) head = merge(head_title, head_none, deck%table%keyword(row)%may_title)
+      if (row > 0) then
+        if (deck%table%keyword(row)%may_title) head = head_title
+        if (deck%table%keyword(row)%title_is_id) head = head_id
+      end if
     else if (ends_with(name, '_ID')) then
       row = find_keyword(deck%table, name(1:len(name) - 3))
       if (row > 0) head = merge(head_id, head_none, deck%table%keyword(row)%may_id)
     end if
-    if (row > 0) then
-      if (head == head_none .and. deck%table%keyword(row)%class == keyword_used) row = 0
-    end if
-    if (row > 0 .or. base_of(deck, name) > 0) return
-    ! A slip of the pen must not pass for a keyword of a family that is skipped or refused.
-    call find_nearest(deck, name, nearest, distance)
-    if (distance > 2 .or. deck%table%keyword(nearest)%class /= keyword_used) &
-        row = family_of(deck%table, name)
-  end subroutine match_name
+    if (row == 0) return
+    if (head == head_none .and. deck%table%keyword(row)%class == keyword_used) row = 0
+  end subroutine match_row
 
   !> The keyword that a name consists of apart from a last _OPTION; 0 if there is none.
   pure integer function base_of(deck, name)
@@ -227,22 +266,6 @@ contains
     if (ends_with) ends_with = text(len(text) - len(tail) + 1:) == tail
   end function ends_with
 
-  !> The row whose name is the fewest single-character edits away.
-  pure subroutine find_nearest(deck, name, best, distance)
-    type(deck_t), intent(in) :: deck
-    character(*), intent(in) :: name
-    integer, intent(out) :: best, distance
-    integer :: k, d
-    best = 1
-    distance = huge(distance)
-    do k = 1, deck%table%n
-      d = edit_distance(name(1:min(len(name), 64)), trim(deck%table%keyword(k)%name))
-      if (d >= distance) cycle
-      distance = d
-      best = k
-    end do
-  end subroutine find_nearest
-
   subroutine unknown_keyword(deck, cursor, name)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
@@ -254,7 +277,7 @@ contains
       hint = '*'//trim(deck%table%keyword(best)%name)//' has no option '// &
           name(index(name, '_', back=.true.):)
     else
-      call find_nearest(deck, name, best, distance)
+      call find_nearest(deck%table, name, best, distance)
       hint = 'the nearest known one is *'//trim(deck%table%keyword(best)%name)
     end if
     call deck%complain_at(cursor%file, cursor%line, 1, len(name) + 1, 'unknown keyword *'// &
@@ -280,12 +303,7 @@ contains
     do while (more)
       if (is_keyword(deck, cursor)) exit
       any_name = .true.
-      name = trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last)))
-      do while (ends_with(name, ' +') .and. more)
-        more = next_line(deck%file(cursor%file), cursor)
-        if (more) name = trim(name(1:len(name) - 2))// &
-            trim(adjustl(deck%file(cursor%file)%text(cursor%first:cursor%last)))
-      end do
+      call read_file_name(deck, cursor, name, more)
       call include_file(deck, cursor, name, depth, overrides, long, ended)
       if (more) more = next_line(deck%file(cursor%file), cursor)
     end do
@@ -304,7 +322,7 @@ contains
     type(status_t) :: status
     character(:), allocatable :: path
     integer :: k
-    path = join_path(folder_of(deck%file(cursor%file)%path), name)
+    path = find_include(deck, cursor%file, name)
     k = cursor%file
     do while (k > 0)
       if (deck%file(k)%path == path) &
@@ -325,7 +343,7 @@ contains
     if (failed(status)) then
       call deck%complain_at(cursor%file, cursor%line, 0, 0, '*INCLUDE: '//status%message, &
           deck%file(cursor%file)%text(cursor%first:cursor%last), &
-          'the name is relative to the file that includes it')
+          'a name is relative to the file that includes it, or to a folder of *INCLUDE_PATH')
     else
       call read_file(deck, deck%files, depth + 1, overrides, long, ended)
     end if

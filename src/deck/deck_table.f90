@@ -3,6 +3,7 @@
 !> table (deck_keywords) feeds the reader, the messages, the echo and the documentation.
 module deck_table
   use base_kinds, only: wp
+  use base_strings, only: edit_distance
   implicit none
   private
   integer, parameter, public :: name_length = 10
@@ -17,7 +18,7 @@ module deck_table
 
   type, public :: field_t
     character(name_length) :: name = ''
-    character :: kind = 'R'            !< I integer, R real, W word, T text of the whole card
+    character :: kind = 'R'            !< I integer, R real, W word, T text to the card's end
     integer :: width = 10
     integer :: first = 1               !< first column in standard form
     integer :: class = field_honoured
@@ -51,6 +52,7 @@ module deck_table
     integer :: repeat_from = 0     !< after the last card go on with this one; 0 = no more cards
     logical :: may_title = .false. !< _TITLE adds a text card before each set of cards
     logical :: may_id = .false.    !< _ID adds a card with id and heading before each set
+    logical :: title_is_id = .false. !< _TITLE means the same as _ID
     logical :: once = .false.      !< at most once per deck
     logical :: noted = .false.     !< read and checked, but without effect: one note
     type(card_t), allocatable :: card(:)
@@ -60,21 +62,23 @@ module deck_table
   type, public :: table_t
     integer :: n = 0
     type(keyword_t), allocatable :: keyword(:)
+    logical :: is_complete = .false.   !< with the keywords that are skipped or refused
   end type table_t
 
-  public :: add_keyword, add_alias, add_card, add_field, find_keyword, field_index, family_of
+  public :: add_keyword, add_alias, add_card, add_field, find_keyword, find_nearest, &
+      field_index, family_of
 
 contains
 
   !> Opens a new row of the table.
   subroutine add_keyword(table, name, help, class, required, repeat_from, title, id, &
-      once, noted)
+      once, noted, title_is_id)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name
     character(*), intent(in) :: help
     integer, intent(in), optional :: class, required, repeat_from
-    logical, intent(in), optional :: title, id, once, noted
-    if (.not. allocated(table%keyword)) allocate (table%keyword(240))
+    logical, intent(in), optional :: title, id, once, noted, title_is_id
+    if (.not. allocated(table%keyword)) allocate (table%keyword(480))
     table%n = table%n + 1
     associate (k => table%keyword(table%n))
       k%name = name
@@ -87,6 +91,7 @@ contains
       if (present(id)) k%may_id = id
       if (present(once)) k%once = once
       if (present(noted)) k%noted = noted
+      if (present(title_is_id)) k%title_is_id = title_is_id
       allocate (k%card(0))
     end associate
   end subroutine add_keyword
@@ -185,6 +190,22 @@ contains
     end do
     find_keyword = 0
   end function find_keyword
+
+  !> The row whose name is the fewest single-character edits away.
+  pure subroutine find_nearest(table, name, best, distance)
+    type(table_t), intent(in) :: table
+    character(*), intent(in) :: name
+    integer, intent(out) :: best, distance
+    integer :: k, d
+    best = 1
+    distance = huge(distance)
+    do k = 1, table%n
+      d = edit_distance(name(1:min(len(name), 64)), trim(table%keyword(k)%name))
+      if (d >= distance) cycle
+      distance = d
+      best = k
+    end do
+  end subroutine find_nearest
 
   !> Row of the family (a name that ends in *) that a name belongs to; 0 if there is none.
   pure integer function family_of(table, name)

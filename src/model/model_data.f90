@@ -171,6 +171,7 @@ module model_data
 
   type, public :: model_t
     character(80) :: title = ''
+    real(wp) :: z = 0.0_wp              !< of the plane [L]
     integer :: nodes = 0
     integer, allocatable :: node_id(:)
     real(wp), allocatable :: x(:, :)         !< (2, nodes) [L]

@@ -87,8 +87,9 @@ contains
     type(status_t), intent(inout) :: status
     integer :: equal
     equal = index(text, '=')
-    if (equal < 2 .or. equal == len(text) .or. equal > 11) then
-      call fail(status, status_file, 'expected -D name=value, found "'//text//'"')
+    if (equal < 2 .or. equal == len(text) .or. equal > 11 .or. len(text) - equal > 24) then
+      call fail(status, status_file, 'expected -D name=value with a name of 1 to 9 and a '// &
+          'value of 1 to 24 characters, found "'//text//'"')
       return
     end if
     arguments%override = [arguments%override, &

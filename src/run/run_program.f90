@@ -8,13 +8,14 @@ module run_program
   use base_kinds, only: i8
   use base_signal, only: watch_limits, watch_signals
   use base_status, only: status_t, fail, failed, status_text, status_ok, status_stopped, &
-      status_file
-  use base_strings, only: stem_of, join_path
+      status_file, status_deck
+  use base_strings, only: stem_of, join_path, upper
   use base_system, only: make_folder, leave, become_sibling
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
-  use deck_help, only: write_keywords, write_usage
-  use deck_keywords, only: fill_table
+  use deck_help, only: write_keywords, write_keyword, write_usage
+  use deck_keywords, only: fill_table, complete_table
+  use deck_table, only: table_t, find_keyword, find_nearest, family_of
   use output_storage, only: storage_t
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
@@ -51,7 +52,8 @@ contains
       write (output_unit, '(a)') 'bipact '//version
     else if (arguments%keywords) then
       call fill_table(run%deck%table)
-      call write_keywords(run%deck%table, output_unit)
+      call complete_table(run%deck%table)
+      call tell_keywords(run%deck%table, arguments, status)
     else
       call work(arguments, run, status)
     end if
@@ -59,6 +61,30 @@ contains
     deallocate (run)
     call leave(status%code)
   end subroutine run_deck
+
+  !> Prints the table of keywords, or the one that is named.
+  subroutine tell_keywords(table, arguments, status)
+    type(table_t), intent(in) :: table
+    type(arguments_t), intent(in) :: arguments
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: name
+    integer :: row, distance
+    if (.not. allocated(arguments%deck)) then
+      call write_keywords(table, output_unit)
+      return
+    end if
+    name = upper(arguments%deck)
+    if (name(1:1) == '*') name = name(2:)
+    row = find_keyword(table, name)
+    if (row == 0) row = family_of(table, name)
+    if (row > 0) then
+      call write_keyword(table, row, output_unit)
+    else
+      call find_nearest(table, name, row, distance)
+      call fail(status, status_deck, 'unknown keyword *'//name, &
+          hint='the nearest known one is *'//trim(table%keyword(row)%name))
+    end if
+  end subroutine tell_keywords
 
   subroutine work(arguments, run, status)
     type(arguments_t), intent(inout) :: arguments

@@ -13,7 +13,7 @@ module scene_contact
   private
   public :: read_contacts, read_walls
 
-  character(40), parameter :: keyword(3) = [character(40) :: &
+  character(40), parameter, public :: contact_keyword(3) = [character(40) :: &
       'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
       'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE']
   character(5), parameter :: surface(2) = ['SURFA', 'SURFB']
@@ -28,9 +28,9 @@ contains
     type(maps_t), intent(inout) :: maps
     integer, allocatable :: record(:), other(:), pair(:)
     integer :: k
-    call records_of(deck, trim(keyword(1)), 1, record)
-    do k = 2, size(keyword)
-      call records_of(deck, trim(keyword(k)), 1, other)
+    call records_of(deck, trim(contact_keyword(1)), 1, record)
+    do k = 2, size(contact_keyword)
+      call records_of(deck, trim(contact_keyword(k)), 1, other)
       record = merged(record, other)
     end do
     allocate (model%contact(size(record)))

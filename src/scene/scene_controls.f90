@@ -7,6 +7,7 @@ module scene_controls
   use deck_problems, only: add_warning, add_problem, add_note
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t, controls_t, count_steps
+  use scene_contact, only: contact_keyword
   implicit none
   private
   public :: read_controls, read_solver_options, note_keywords
@@ -87,20 +88,15 @@ contains
         'use GAMMA 0.5 with BETA 0.25')
   end subroutine read_dynamics
 
-  !> *BIPACT_TIME; without it the scheme is Newmark, as the other cards say.
+  !> *BIPACT_TIME. Without it: THETA where there is contact and the deck gives neither GAMMA nor
+  !> BETA, else NEWMARK.
   subroutine read_scheme(deck, controls)
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
     integer :: r
     r = deck%next('BIPACT_TIME', 1, 0)
     if (r == 0) then
-      controls%scheme = 'NEWMARK'
-      if (deck%next('CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 1, 0) > 0 &
-          .or. deck%next('CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', 1, 0) > 0 &
-          .or. deck%next('CONTACT_2D_AUTOMATIC_SINGLE_SURFACE', 1, 0) > 0 &
-          .or. deck%next('RIGIDWALL_PLANAR', 1, 0) > 0) &
-          call add_warning(deck%problems, 'no *BIPACT_TIME: the scheme is NEWMARK, which '// &
-          'gains energy without bound on impact; choose SCHEME THETA')
+      call choose_scheme(deck, controls)
       return
     end if
     controls%scheme = deck%word(r, 'SCHEME')
@@ -112,6 +108,34 @@ contains
         call deck%complain(r, 'THETA', 'NEWMARK has no theta: leave it blank')
     if (deck%is_given(r, 'XI')) call deck%complain(r, 'XI', 'NEWMARK has no xi: leave it blank')
   end subroutine read_scheme
+
+  subroutine choose_scheme(deck, controls)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    logical :: newmark
+    integer :: r
+    controls%scheme = 'NEWMARK'
+    if (.not. has_contact(deck)) return
+    r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
+    newmark = .false.
+    if (r > 0) newmark = deck%is_given(r, 'GAMMA') .or. deck%is_given(r, 'BETA')
+    if (newmark) then
+      call add_warning(deck%problems, 'no *BIPACT_TIME, but GAMMA or BETA: the scheme is '// &
+          'NEWMARK, which gains energy without bound on impact; choose SCHEME THETA')
+    else
+      controls%scheme = 'THETA'
+      call add_note(deck%problems, 'no *BIPACT_TIME: the scheme is THETA with theta = xi = 1/2')
+    end if
+  end subroutine choose_scheme
+
+  pure logical function has_contact(deck)
+    type(deck_t), intent(in) :: deck
+    integer :: k
+    has_contact = deck%next('RIGIDWALL_PLANAR', 1, 0) > 0
+    do k = 1, size(contact_keyword)
+      has_contact = has_contact .or. deck%next(trim(contact_keyword(k)), 1, 0) > 0
+    end do
+  end function has_contact
 
   subroutine read_mass(deck, controls)
     type(deck_t), intent(inout) :: deck

@@ -19,7 +19,7 @@ module scene_ids
   !> The maps of everything that has numbers.
   type, public :: maps_t
     type(id_map_t) :: node, element, part, section, material
-    type(id_map_t) :: node_set, part_set, element_set, segment_set, curve, contact
+    type(id_map_t) :: node_set, part_set, element_set, segment_set, curve, contact, box
   end type maps_t
 
   public :: make_id_map, records_of, find_or_complain

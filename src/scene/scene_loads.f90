@@ -29,13 +29,19 @@ contains
     call make_id_map(deck, 'curve', 'LCID', model%curve%id, head, maps%curve)
   end subroutine read_curves
 
+  !> Points are scaled after the offsets are added. A curve of time that is shifted to later
+  !> times (OFFA > 0) is 0 from t = 0 to 0.999 OFFA, by two points that are put before the given
+  !> ones (S. Bala, "Curve offset in LS-DYNA", d3view.com, 2008).
   subroutine read_curve(deck, head, curve)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: head
     type(curve_t), intent(inout) :: curve
+    real(wp) :: begin
     integer :: k, n
     n = deck%block(deck%record(head)%block)%last - head
     curve%id = deck%integer(head, 'LCID')
+    if (deck%integer(head, 'SIDR') == 1) call deck%complain(head, 'SIDR', &
+        'expected 0 or 2: dynamic relaxation is not available in this version')
     allocate (curve%a(n), curve%o(n))
     do k = 1, n
       curve%a(k) = deck%real(head, 'SFA')*(deck%real(head + k, 'A') + deck%real(head, 'OFFA'))
@@ -46,6 +52,15 @@ contains
       if (.not. curve%a(k) > curve%a(k - 1)) call deck%complain(head + k, 'A', &
           'expected an abscissa greater than that of the card before')
     end do
+    if (.not. deck%real(head, 'OFFA') > zero) return
+    begin = 0.999_wp*deck%real(head, 'OFFA')*deck%real(head, 'SFA')
+    if (.not. curve%a(1) > begin) then
+      call deck%complain(head, 'OFFA', 'expected a first abscissa >= 0 where OFFA is above 0', &
+          'the points that make the curve 0 before OFFA would lie among the given ones')
+    else
+      curve%a = [zero, begin, curve%a]
+      curve%o = [zero, zero, curve%o]
+    end if
   end subroutine read_curve
 
   !> Row of the curve that a card names; 0 and a problem if there is none. A curve that ends

@@ -21,22 +21,26 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
     integer, allocatable :: record(:)
-    integer :: k, n
-    real(wp) :: z, z_first
+    integer :: k, n, held
+    real(wp) :: z
+    !> Directions x, y that TC = 1 to 7 holds (z, 3, is held in a plane model).
+    logical, parameter :: holds(2, 7) = reshape([.true., .false., .false., .true., .false., &
+        .false., .true., .true., .false., .true., .true., .false., .true., .true.], [2, 7])
     call records_of(deck, 'NODE', 1, record)
     n = size(record)
     model%nodes = n
     allocate (model%node_id(n), model%x(2, n), model%v0(2, n), model%fixed(2, n))
     model%v0 = zero
     model%fixed = .false.
-    z_first = zero
     do k = 1, n
       model%node_id(k) = nint(deck%number_at(record(k), 1))
       model%x(1, k) = deck%number_at(record(k), 2)
       model%x(2, k) = deck%number_at(record(k), 3)
       z = deck%number_at(record(k), 4)
-      if (k == 1) z_first = z
-      if (abs(z - z_first) > zero) call deck%complain(record(k), 'Z', &
+      if (k == 1) model%z = z
+      held = nint(deck%number_at(record(k), 5))
+      if (held > 0) model%fixed(:, k) = holds(:, held)
+      if (abs(z - model%z) > zero) call deck%complain(record(k), 'Z', &
           'expected the z of the first node: the model is plane')
     end do
     call make_id_map(deck, 'node', 'NID', model%node_id, record, maps%node)

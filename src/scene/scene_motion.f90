@@ -4,6 +4,7 @@ module scene_motion
   use base_kinds, only: wp, zero, one
   use base_strings, only: to_text
   use deck_data, only: deck_t
+  use deck_problems, only: add_note
   use model_data, only: model_t, motion_t, curve_value, curve_slope, motion_acceleration, &
       motion_displacement
   use scene_ids, only: maps_t, records_of, find_or_complain
@@ -85,7 +86,7 @@ contains
       associate (i => motion%node(k), d => motion%direction)
         if (model%fixed(d, i)) then
           call deck%complain(motion%record, 'DOF', 'direction '//axis(d)//' of node '// &
-              to_text(model%node_id(i))//' is fixed by *BOUNDARY_SPC')
+              to_text(model%node_id(i))//' is fixed')
         else if (owner(d, i) > 0) then
           call deck%complain(motion%record, 'DOF', 'direction '//axis(d)//' of node '// &
               to_text(model%node_id(i))//' has a motion already', 'the first is at '// &
@@ -98,8 +99,8 @@ contains
   end subroutine claim
 
   !> *INITIAL_VELOCITY, _NODE, _GENERATION. A node that gets two different velocities is a
-  !> problem (which one should win?), so is one that its support or motion contradicts. Where a
-  !> motion prescribes the velocity and no card gives one, the motion's is taken.
+  !> problem (which one should win?), so is one that its motion contradicts. A support wins.
+  !> Where a motion prescribes the velocity and no card gives one, the motion's is taken.
   subroutine read_initial_velocities(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
@@ -127,8 +128,20 @@ contains
       call generate_velocity(deck, model, maps, r, owner)
       r = deck%next('INITIAL_VELOCITY_GENERATION', 1, r)
     end do
+    call stop_supported(deck, model)
     call start_motions(deck, model, owner)
   end subroutine read_initial_velocities
+
+  !> Fixed directions do not move, whatever a card gives their nodes.
+  subroutine stop_supported(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    integer :: n
+    n = count(any(model%fixed .and. abs(model%v0) > zero, dim=1))
+    where (model%fixed) model%v0 = zero
+    if (n > 0) call add_note(deck%problems, 'initial velocity on fixed directions of '// &
+        to_text(n)//trim(merge(' node ', ' nodes', n == 1))//': the supports win')
+  end subroutine stop_supported
 
   subroutine generate_velocity(deck, model, maps, record, owner)
     type(deck_t), intent(inout) :: deck
@@ -196,7 +209,7 @@ contains
     real(wp), intent(in) :: omega, centre(2)
     integer, intent(inout) :: owner(:)
     real(wp) :: given(2), v(2)
-    integer :: k, d
+    integer :: k
     logical :: told
     told = .false.
     given = [deck%real(record, 'VX'), deck%real(record, 'VY')]
@@ -210,12 +223,6 @@ contains
               ' gets a second, different initial velocity', 'the first is at '// &
               deck%place(owner(i)))
         end if
-        do d = 1, 2
-          if (told .or. .not. model%fixed(d, i) .or. .not. abs(v(d)) > zero) cycle
-          told = .true.
-          call deck%complain(record, 'V'//axis(d), &
-              'initial velocity on a fixed direction of node '//to_text(model%node_id(i)))
-        end do
         model%v0(:, i) = v
         owner(i) = record
       end associate

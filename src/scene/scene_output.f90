@@ -32,9 +32,13 @@ contains
       allocate (r%history_node(0), r%history_element(0))
       call read_history(deck, 'DATABASE_HISTORY_NODE', 'node', maps%node, no_set, &
           r%history_node)
+      call read_history(deck, 'DATABASE_HISTORY_NODE_ID', 'node', maps%node, no_set, &
+          r%history_node)
       call read_history(deck, 'DATABASE_HISTORY_NODE_SET', 'node set', maps%node_set, &
           model%node_set, r%history_node)
       call read_history(deck, 'DATABASE_HISTORY_SHELL', 'element', maps%element, no_set, &
+          r%history_element)
+      call read_history(deck, 'DATABASE_HISTORY_SHELL_ID', 'element', maps%element, no_set, &
           r%history_element)
       call read_history(deck, 'DATABASE_HISTORY_SHELL_SET', 'element set', maps%element_set, &
           model%element_set, r%history_element)
@@ -71,8 +75,8 @@ contains
     if (r > 0) interval = deck%real(r, 'DT')
   end subroutine read_interval
 
-  !> Rows of the ids on the cards of a history keyword, or of the members of the sets they name;
-  !> each row once.
+  !> Rows of the ids on the cards of a history keyword (eight a card; of _ID one and a heading),
+  !> or of the members of the sets they name; each row once.
   subroutine read_history(deck, keyword, what, map, sets, rows)
     type(deck_t), intent(inout) :: deck
     character(*), intent(in) :: keyword, what
@@ -80,11 +84,12 @@ contains
     type(set_t), intent(in) :: sets(:)
     integer, allocatable, intent(inout) :: rows(:)
     integer, allocatable :: more(:)
-    integer :: r, m, id, row
+    integer :: r, m, id, row, fields
+    fields = merge(1, 8, index(keyword, '_ID') > 0)
     r = deck%next(keyword, 1, 0)
     do while (r > 0)
       allocate (more(0))
-      do m = 1, 8
+      do m = 1, fields
         id = nint(deck%number_at(r, m))
         if (id == 0) cycle
         row = find_or_complain(deck, map, r, 'ID'//achar(48 + m), id, what)

@@ -4,7 +4,7 @@ module scene_parts
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use deck_problems, only: add_note, add_warning
+  use deck_problems, only: add_warning
   use material_base, only: plane_stress, plane_strain
   use material_registry, only: make_material
   use model_data, only: model_t, section_t
@@ -58,6 +58,12 @@ contains
         p%material_id = deck%integer(record(k), 'MID')
         p%heading = deck%word(record(k) - 1, 'HEADING')
         row = maps%section%find(p%section_id)
+        if (p%section_id == 0 .or. p%material_id == 0) then
+          call deck%complain(record(k), 'SECID', 'part '//to_text(p%id)//' has no section '// &
+              'or no material (SECID '//to_text(p%section_id)//', MID '// &
+              to_text(p%material_id)//')', 'name a *SECTION_SHELL and a *MAT_ELASTIC')
+          cycle
+        end if
         if (row == 0) then
           call deck%complain(record(k), 'SECID', 'section '//to_text(p%section_id)// &
               ' is not defined', 'add a *SECTION_SHELL with this number')
@@ -93,8 +99,6 @@ contains
         end if
         if (deck%integer(r, 'NIP') /= 4) call deck%complain(r, 'NIP', &
             'expected 4 or blank: elements are integrated with 2 x 2 points')
-        if (.not. deck%is_given(r, 'NIP')) call add_note(deck%problems, &
-            '*SECTION_SHELL NIP blank: quadrilaterals are integrated with 2 x 2 points')
         call read_thickness(deck, deck%follow(r, 2), section(k))
       end associate
     end do

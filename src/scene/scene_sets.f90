@@ -4,6 +4,7 @@ module scene_sets
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use model_data, only: model_t, set_t, segment_set_t, segment_owner
+  use scene_clauses, only: box_t, read_boxes, read_clauses, read_segment_clauses
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -16,61 +17,78 @@ contains
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
-    call read_set_kind(deck, 'SET_NODE_LIST', 'node', 'NID', maps%node, model%node_set, &
+    type(box_t), allocatable :: box(:)
+    call read_boxes(deck, maps, box)
+    call read_set_kind(deck, model, maps, box, 'NODE', 'node', maps%node, model%node_set, &
         maps%node_set)
-    call read_set_kind(deck, 'SET_PART_LIST', 'part', 'PID', maps%part, model%part_set, &
+    call read_set_kind(deck, model, maps, box, 'PART', 'part', maps%part, model%part_set, &
         maps%part_set)
-    call read_set_kind(deck, 'SET_SHELL_LIST', 'element', 'EID', maps%element, &
+    call read_set_kind(deck, model, maps, box, 'SHELL', 'element', maps%element, &
         model%element_set, maps%element_set)
-    call read_segment_sets(deck, model, maps)
+    call read_segment_sets(deck, model, maps, box)
   end subroutine read_sets
 
-  !> The sets of one kind, given as lists and by ranges of numbers.
-  subroutine read_set_kind(deck, keyword, what, member, map, sets, set_map)
+  !> The sets of one kind: given as lists, one member a card, by ranges of numbers, by clauses.
+  subroutine read_set_kind(deck, model, maps, box, kind, what, map, sets, set_map)
     type(deck_t), intent(inout) :: deck
-    character(*), intent(in) :: keyword, what, member
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
+    type(box_t), intent(in) :: box(:)
+    character(*), intent(in) :: kind, what
     type(id_map_t), intent(in) :: map
     type(set_t), allocatable, intent(out) :: sets(:)
     type(id_map_t), intent(out) :: set_map
-    integer, allocatable :: lists(:), ranges(:), head(:), ids(:)
+    character(16), parameter :: form(4) = [character(16) :: '_LIST', '_COLUMN', &
+        '_LIST_GENERATE', '_GENERAL']
+    integer, allocatable :: head(:), more(:), ids(:), form_of(:)
     integer :: k
-    call records_of(deck, keyword, 1, lists)
-    call records_of(deck, keyword//'_GENERATE', 1, ranges)
-    head = [lists, ranges]
+    allocate (head(0), form_of(0))
+    do k = 1, size(form)
+      call records_of(deck, 'SET_'//kind//trim(form(k)), 1, more)
+      head = [head, more]
+      form_of = [form_of, spread(k, 1, size(more))]
+    end do
     allocate (sets(size(head)), ids(size(head)))
     do k = 1, size(head)
       ids(k) = deck%integer(head(k), 'SID')
       sets(k)%id = ids(k)
-      if (k <= size(lists)) then
-        call read_list(deck, head(k), what, member, map, sets(k)%member)
-      else
+      select case (form_of(k))
+      case (1)
+        call read_list(deck, head(k), 8, what, map, sets(k)%member)
+      case (2)
+        call read_list(deck, head(k), 1, what, map, sets(k)%member)
+      case (3)
         call read_ranges(deck, head(k), what, map, sets(k)%member)
-      end if
+      case default
+        call read_clauses(deck, model, maps, box, head(k), kind, sets(k)%member)
+      end select
+      if (size(sets(k)%member) == 0 .and. deck%problems%count == 0) &
+          call deck%complain(head(k), 'SID', 'the '//what//' set is empty')
     end do
     call make_id_map(deck, what//' set', 'SID', ids, head, set_map)
   end subroutine read_set_kind
 
-  !> Rows of the members on the cards after `head`; zeros are padding.
-  subroutine read_list(deck, head, what, member, map, rows)
+  !> Rows of the members in the first `fields` fields of the cards after `head`; zeros are
+  !> padding.
+  subroutine read_list(deck, head, fields, what, map, rows)
     type(deck_t), intent(inout) :: deck
-    integer, intent(in) :: head
-    character(*), intent(in) :: what, member
+    integer, intent(in) :: head, fields
+    character(*), intent(in) :: what
     type(id_map_t), intent(in) :: map
     integer, allocatable, intent(out) :: rows(:)
     integer :: last, r, m, n, id
     last = deck%block(deck%record(head)%block)%last
-    allocate (rows(8*(last - head)))
+    allocate (rows(fields*(last - head)))
     n = 0
     do r = head + 1, last
-      do m = 1, 8
+      do m = 1, fields
         id = nint(deck%number_at(r, m))
         if (id == 0) cycle
         n = n + 1
-        rows(n) = find_or_complain(deck, map, r, member//achar(48 + m), id, what)
+        rows(n) = find_or_complain(deck, map, r, deck%field_name(r, m), id, what)
       end do
     end do
     rows = pack(rows(1:n), rows(1:n) > 0)
-    if (n == 0) call deck%complain(head, 'SID', 'the '//what//' set is empty')
   end subroutine read_list
 
   !> Rows of all members whose number lies in one of the ranges.
@@ -95,19 +113,28 @@ contains
       end do
     end do
     rows = pack(map%row, taken)
-    if (size(rows) == 0) call deck%complain(head, 'SID', 'the '//what//' set is empty')
   end subroutine read_ranges
 
-  subroutine read_segment_sets(deck, model, maps)
+  subroutine read_segment_sets(deck, model, maps, box)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
-    integer, allocatable :: head(:), ids(:), owner(:)
-    integer :: k, r, n
+    type(box_t), intent(in) :: box(:)
+    integer, allocatable :: head(:), general(:), ids(:), owner(:)
+    integer :: k, r, n, lists
     call records_of(deck, 'SET_SEGMENT', 1, head)
+    call records_of(deck, 'SET_SEGMENT_GENERAL', 1, general)
+    lists = size(head)
+    head = [head, general]
     allocate (model%segment_set(size(head)), ids(size(head)))
     do k = 1, size(head)
       ids(k) = deck%integer(head(k), 'SID')
+      if (k > lists) then
+        model%segment_set(k)%id = ids(k)
+        model%segment_set(k)%record = head(k)
+        call read_segment_clauses(deck, model, maps, box, head(k), model%segment_set(k)%node)
+        cycle
+      end if
       n = deck%block(deck%record(head(k))%block)%last - head(k)
       allocate (model%segment_set(k)%node(2, n))
       model%segment_set(k)%id = ids(k)

@@ -14,6 +14,7 @@ BASES = {name: open(os.path.join(HERE, name + ".k")).read() for name in ("base",
 NODE = "       2             1.0             0.0"
 ELEMENT = "       1       1       1       2       3       4"
 MATERIAL = "         1     0.001    1000.0       0.3"
+EXPRESSION = "*PARAMETER_EXPRESSION\n"
 PARAMETER = "Rtend           0.01Rdt            1e-03"
 BASE_FAULTS = [
     # the frame
@@ -49,6 +50,33 @@ BASE_FAULTS = [
     ("an include that is not there", "*END", "*INCLUDE\nnowhere.k\n*END"),
     ("an include without a name", "*END", "*INCLUDE\n*END"),
     ("an include of itself", "*END", "*INCLUDE\ndeck.k\n*END"),
+    # names that are nearly right, and names of files
+    ("output that nobody has", "*END", "*DATABASE_ABSTATS\n     0.001\n*END"),
+    ("control that nobody has", "*END", "*CONTROL_ACCURACCY\n         0\n*END"),
+    ("an include in no folder", "*END", "*INCLUDE_PATH\nnowhere\n*INCLUDE\nmesh.k\n*END"),
+    # expressions
+    ("division by zero", "*END", EXPRESSION + "R a       1.0/(2-2)\n*END"),
+    ("not finite", "*END", EXPRESSION + "R a       exp(1000.)\n*END"),
+    ("a power too large", "*END", EXPRESSION + "R a       10.0**400\n*END"),
+    ("an integer too large", "*END", EXPRESSION + "I n       50000*50000\n*END"),
+    ("unknown name", "*END", EXPRESSION + "R a       2*dtt\n*END"),
+    ("unknown function", "*END", EXPRESSION + "R a       sinus(1.0)\n*END"),
+    ("too few arguments", "*END", EXPRESSION + "R a       atan2(1.0)\n*END"),
+    ("parenthesis left open", "*END", EXPRESSION + "R a       2*(1+dt\n*END"),
+    ("parenthesis too many", "*END", EXPRESSION + "R a       2*(1+dt))\n*END"),
+    ("nothing after an operator", "*END", EXPRESSION + "R a       2*dt+\n*END"),
+    ("two values without operator", "*END", EXPRESSION + "R a       2 dt\n*END"),
+    ("a number of two points", "*END", EXPRESSION + "R a       1.2.3\n*END"),
+    ("root of a negative number", "*END", EXPRESSION + "R a       sqrt(-2.0)\n*END"),
+    ("logarithm of zero", "*END", EXPRESSION + "R a       log(0.0)\n*END"),
+    ("negative number to a broken power", "*END", EXPRESSION + "R a       (-2.0)**0.5\n*END"),
+    ("a fraction for an integer parameter", "*END", EXPRESSION + "I n       7.5\n*END"),
+    ("an expression for a word", "*END", EXPRESSION + "C n       7.5\n*END"),
+    ("an expression twice", "*END", EXPRESSION + "R dt      7.5\n*END"),
+    ("an expression without a name", "*END", EXPRESSION + "          7.5\n*END"),
+    ("fault on the second line", "*END", EXPRESSION + "R a       1.0 +\n          2.0 * b\n*END"),
+    ("fault in comma form", "*END", EXPRESSION + "R a,1.0+b\n*END"),
+    ("a local parameter twice", "*END", "*PARAMETER_LOCAL\nRa               1.0Ra               2.0\n*END"),
     # parameters
     ("undefined parameter", "     &tend", "     &tond"),
     ("undefined parameter with a sign", "     &tend", "    -&tond"),
@@ -90,9 +118,8 @@ BASE_FAULTS = [
     ("tab", "     0.001\n*END", "\t0.001\n*END"),
     ("accent in a data card", "     0.001\n*END", "    0,001\u00e9\n*END"),
     ("card shifted right", NODE, "       2               1.0             0.0"),
-    ("card shifted left", NODE, "     2             1.0             0.0\n"),
     ("a value across a border", ELEMENT, "       1       1       1     2345      3       4"),
-    ("too many commas", "     0.001\n*END", "0.001,0,0,0,5,6\n*END"),
+    ("too many commas", "     0.001\n*END", "0.001,0,0,0,5,6,7,8,9\n*END"),
     ("beyond the last field", MATERIAL, MATERIAL + " " * 30 + "7"),
     ("comma in a column card", NODE, "       2,            1.0             0.0"),
     # ranges and classes
@@ -113,7 +140,7 @@ BASE_FAULTS = [
         "       1.0\n*DATABASE",
         "       1.0       0.0       2.0\n*DATABASE",
     ),
-    ("node constraint on the node card", NODE, NODE + "             0.0       1"),
+    ("unknown constraint on the node card", NODE, NODE + "             0.0       9"),
     ("explicit", "         1       &dt", "         0       &dt"),
     (
         "static",
@@ -217,9 +244,9 @@ BASE_FAULTS = [
     ("part twice", "*SECTION_SHELL", "spare\n         1         1         1\n*SECTION_SHELL"),
     ("beam of a part", "*PART", "*ELEMENT_BEAM\n       7       1       1       2\n*PART"),
     (
-        "hourglass of a part",
+        "equation of state of a part",
         "         1         1         1\n*SECTION",
-        "         1         1         1                   3\n*SECTION",
+        "         1         1         1         3\n*SECTION",
     ),
     (
         "undefined section",
@@ -271,11 +298,20 @@ BASE_FAULTS = [
         "*END",
         "*SET_SEGMENT\n         3\n         1         2         3         3\n*END",
     ),
-    (
-        "support of a moving node",
-        "*END",
-        "*BOUNDARY_SPC_NODE\n         1                   1\n*END",
-    ),
+    ("a set of another solver", "*END", "*SET_NODE_LIST\n         7       0.0       0.0       0.0       0.0CESE\n         1\n*END"),
+    ("attributes of a set", "*END", "*SET_NODE_COLUMN\n         7\n         1       2.0\n*END"),
+    ("a box backwards", "*END", "*DEFINE_BOX\n         1       1.0       0.0\n*END"),
+    ("a clause of no box", "*END", "*SET_NODE_GENERAL\n         7\n       BOX         3\n*END"),
+    ("a clause that is none", "*END", "*SET_NODE_GENERAL\n         7\n      TUBE         3\n*END"),
+    ("an empty set of clauses", "*END", "*SET_NODE_GENERAL\n         7\n       ALL\n     DPART         1\n*END"),
+    ("no edge", "*END", "*SET_SEGMENT_GENERAL\n         7\n       SEG         1         3\n*END"),
+    ("a part without material", "         1         1         1\n*SECTION", "         1         1         0\n*SECTION"),
+    ("a part without anything", "         1         1         1\n*SECTION", "         1\n*SECTION"),
+    ("dynamic relaxation", "*END", "*DEFINE_CURVE\n         1         1\n                 0.0                 1.0\n*END"),
+    ("an offset into the points", "*END", "*DEFINE_CURVE\n         1                                     0.5\n                -1.0                 1.0\n*END"),
+    ("a history without a number", "*END", "*DATABASE_HISTORY_NODE_ID\n          corner\n*END"),
+    ("a coupled analysis", "*END", "*CONTROL_SOLUTION\n         2\n*END"),
+    ("a fluid", MATERIAL, MATERIAL + " " * 20 + "     100.0"),
     ("support of nobody", "*END", "*BOUNDARY_SPC_SET\n         9                   1\n*END"),
     ("two velocities", "*END", "*INITIAL_VELOCITY_NODE\n         1       2.0\n*END"),
     (

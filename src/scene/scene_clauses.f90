@@ -1,0 +1,229 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Sets by clauses (*SET_..._GENERAL): all, by numbers, by parts, by boxes; clauses that begin
+!> with D take away. They are obeyed in the order of the cards.
+module scene_clauses
+  use base_kinds, only: wp
+  use deck_data, only: deck_t
+  use model_data, only: model_t, corner_count, segment_owner
+  use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
+  implicit none
+  private
+
+  !> A box along the axes [L].
+  type, public :: box_t
+    real(wp) :: low(3) = 0.0_wp, high(3) = 0.0_wp
+  end type box_t
+
+  public :: read_boxes, read_clauses, read_segment_clauses
+
+contains
+
+  !> *DEFINE_BOX.
+  subroutine read_boxes(deck, maps, box)
+    type(deck_t), intent(inout) :: deck
+    type(maps_t), intent(inout) :: maps
+    type(box_t), allocatable, intent(out) :: box(:)
+    character, parameter :: axis(3) = ['X', 'Y', 'Z']
+    integer, allocatable :: record(:), ids(:)
+    integer :: k, d
+    call records_of(deck, 'DEFINE_BOX', 1, record)
+    allocate (box(size(record)), ids(size(record)))
+    do k = 1, size(record)
+      ids(k) = deck%integer(record(k), 'BOXID')
+      do d = 1, 3
+        box(k)%low(d) = deck%real(record(k), axis(d)//'MN')
+        box(k)%high(d) = deck%real(record(k), axis(d)//'MX')
+        if (box(k)%high(d) < box(k)%low(d)) call deck%complain(record(k), axis(d)//'MX', &
+            'expected a number that is not below '//axis(d)//'MN')
+      end do
+    end do
+    call make_id_map(deck, 'box', 'BOXID', ids, record, maps%box)
+  end subroutine read_boxes
+
+  !> Rows of the nodes (kind 'NODE') or elements ('SHELL') of a set. An element lies in a box
+  !> when its nodes do.
+  subroutine read_clauses(deck, model, maps, box, head, kind, rows)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
+    type(box_t), intent(in) :: box(:)
+    integer, intent(in) :: head
+    character(*), intent(in) :: kind
+    integer, allocatable, intent(out) :: rows(:)
+    logical, allocatable :: in_set(:), named(:)
+    character(:), allocatable :: option
+    logical :: adds
+    integer :: r, k
+    allocate (in_set(merge(model%nodes, model%elements, kind == 'NODE')))
+    in_set = .false.
+    do r = head + 1, deck%block(deck%record(head)%block)%last
+      call split_option(deck, r, option, adds)
+      select case (option)
+      case ('ALL')
+        named = spread(.true., 1, size(in_set))
+      case ('NODE')
+        call mark_named(deck, maps%node, r, 'node', size(in_set), named)
+      case ('ELEM')
+        call mark_named(deck, maps%element, r, 'element', size(in_set), named)
+      case default
+        call mark_elements(deck, model, maps, box, r, option, kind, named)
+      end select
+      where (named) in_set = adds
+    end do
+    rows = pack([(k, k=1, size(in_set))], in_set)
+  end subroutine read_clauses
+
+  !> Nodes of the exposed element edges of a set, (2, segments). An edge belongs to a part when
+  !> its element does, and lies in a box when both its nodes do.
+  subroutine read_segment_clauses(deck, model, maps, box, head, node)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
+    type(box_t), intent(in) :: box(:)
+    integer, intent(in) :: head
+    integer, allocatable, intent(out) :: node(:, :)
+    integer, allocatable :: edge(:, :), owner(:)
+    logical, allocatable :: in_set(:), named(:)
+    character(:), allocatable :: option
+    logical :: adds
+    integer :: r
+    if (deck%problems%count > 0) then
+      allocate (node(2, 0))
+      return
+    end if
+    call exposed_edges(model, edge, owner)
+    allocate (in_set(size(owner)))
+    in_set = .false.
+    do r = head + 1, deck%block(deck%record(head)%block)%last
+      call split_option(deck, r, option, adds)
+      if (option == 'ALL') then
+        named = spread(.true., 1, size(in_set))
+      else
+        call mark_edges(deck, model, maps, box, r, option, edge, owner, named)
+      end if
+      where (named) in_set = adds
+    end do
+    node = reshape(pack(edge, spread(in_set, 1, 2)), [2, count(in_set)])
+    if (.not. any(in_set) .and. deck%problems%count == 0) &
+        call deck%complain(head, 'SID', 'the segment set is empty')
+  end subroutine read_segment_clauses
+
+  !> The word of a clause without the D that takes away.
+  subroutine split_option(deck, record, option, adds)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: record
+    character(:), allocatable, intent(out) :: option
+    logical, intent(out) :: adds
+    option = deck%word(record, 'OPTION')
+    adds = option(1:1) /= 'D'
+    if (.not. adds) option = option(2:)
+  end subroutine split_option
+
+  !> Marks the rows whose numbers stand in E1 to E7.
+  subroutine mark_named(deck, map, record, what, n, named)
+    type(deck_t), intent(inout) :: deck
+    type(id_map_t), intent(in) :: map
+    integer, intent(in) :: record, n
+    character(*), intent(in) :: what
+    logical, allocatable, intent(out) :: named(:)
+    integer :: m, id, row
+    allocate (named(n))
+    named = .false.
+    do m = 2, 8
+      id = nint(deck%number_at(record, m))
+      if (id == 0) cycle
+      row = find_or_complain(deck, map, record, deck%field_name(record, m), id, what)
+      if (row > 0) named(row) = .true.
+    end do
+  end subroutine mark_named
+
+  !> Marks nodes or elements of the parts or boxes in E1 to E7.
+  subroutine mark_elements(deck, model, maps, box, record, option, kind, named)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
+    type(box_t), intent(in) :: box(:)
+    integer, intent(in) :: record
+    character(*), intent(in) :: option, kind
+    logical, allocatable, intent(out) :: named(:)
+    logical, allocatable :: element(:), node(:), group(:)
+    integer :: e
+    if (option == 'PART') then
+      call mark_named(deck, maps%part, record, 'part', size(model%part), group)
+      element = group(model%element_part)
+      node = spread(.false., 1, model%nodes)
+      do e = 1, model%elements
+        if (element(e)) node(model%connectivity(:, e)) = .true.
+      end do
+    else
+      call mark_named(deck, maps%box, record, 'box', size(box), group)
+      node = in_boxes(model, pack(box, group))
+      element = [(all(node(model%connectivity(:, e))), e=1, model%elements)]
+    end if
+    if (kind == 'NODE') named = node
+    if (kind /= 'NODE') named = element
+  end subroutine mark_elements
+
+  !> Marks exposed edges: the one between the nodes E1 and E2 (SEG), or those of parts or boxes.
+  subroutine mark_edges(deck, model, maps, box, record, option, edge, owner, named)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
+    type(box_t), intent(in) :: box(:)
+    integer, intent(in) :: record, edge(:, :), owner(:)
+    character(*), intent(in) :: option
+    logical, allocatable, intent(out) :: named(:)
+    logical, allocatable :: node(:), group(:)
+    select case (option)
+    case ('PART')
+      call mark_named(deck, maps%part, record, 'part', size(model%part), group)
+      named = group(model%element_part(owner))
+    case ('BOX')
+      call mark_named(deck, maps%box, record, 'box', size(box), group)
+      node = in_boxes(model, pack(box, group))
+      named = node(edge(1, :)) .and. node(edge(2, :))
+    case default
+      call mark_named(deck, maps%node, record, 'node', model%nodes, node)
+      named = node(edge(1, :)) .and. node(edge(2, :))
+      if (count(node) /= 2 .or. count(named) /= 1) call deck%complain(record, 'E1', &
+          'expected the two nodes of one exposed element edge in E1 and E2')
+    end select
+  end subroutine mark_edges
+
+  pure function in_boxes(model, box) result(is_in)
+    type(model_t), intent(in) :: model
+    type(box_t), intent(in) :: box(:)
+    logical :: is_in(model%nodes)
+    integer :: b
+    is_in = .false.
+    do b = 1, size(box)
+      associate (low => box(b)%low, high => box(b)%high)
+        if (model%z < low(3) .or. model%z > high(3)) cycle
+        is_in = is_in .or. (model%x(1, :) >= low(1) .and. model%x(1, :) <= high(1) &
+            .and. model%x(2, :) >= low(2) .and. model%x(2, :) <= high(2))
+      end associate
+    end do
+  end function in_boxes
+
+  !> All element edges that no second element has: their nodes, (2, edges), in the direction of
+  !> the element, and the element of each.
+  subroutine exposed_edges(model, edge, owner)
+    type(model_t), intent(in) :: model
+    integer, allocatable, intent(out) :: edge(:, :), owner(:)
+    integer :: e, k, n, c
+    allocate (edge(2, 4*model%elements))
+    n = 0
+    do e = 1, model%elements
+      c = corner_count(model%connectivity(:, e))
+      do k = 1, c
+        n = n + 1
+        edge(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, c), e)]
+      end do
+    end do
+    edge = edge(:, 1:n)
+    owner = segment_owner(model, edge)
+    edge = reshape(pack(edge, spread(owner /= 0, 1, 2)), [2, count(owner /= 0)])
+    owner = abs(pack(owner, owner /= 0))
+  end subroutine exposed_edges
+
+end module scene_clauses
