@@ -11,7 +11,8 @@ module contact_setup
   use contact_surface, only: make_surface
   use contact_types, only: contact_t
   use contact_wall, only: pairing_wall_t
-  use model_data, only: model_t, contact_card_t, wall_t, field_names, side_node_set, &
+  use deck_names, only: field_names, table_ncforc
+  use model_data, only: model_t, contact_card_t, wall_t, side_node_set, &
       side_all_nodes
   implicit none
   private
@@ -137,7 +138,7 @@ contains
   !> Forces on nodes are kept where a table or a field asks for them.
   pure logical function needs_nodal(model)
     type(model_t), intent(in) :: model
-    needs_nodal = model%requests%ncforc > zero
+    needs_nodal = model%requests%interval(table_ncforc) > zero
     associate (field => model%requests%field)
       if (field%on) needs_nodal = needs_nodal .or. any(field%wanted .and. (field_names == &
           'FORCE' .or. field_names == 'PRESSURE' .or. field_names == 'GAP' .or. &

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Keywords of contact and of the tables.
 module deck_keywords_contact
+  use base_strings, only: upper
+  use deck_names, only: table_keywords, table_names, table_count, table_timing
   use deck_table, only: table_t, add_keyword, add_card, add_field
   implicit none
   private
@@ -88,12 +90,11 @@ contains
   !> Adds the requests for tables and their nodes and elements.
   subroutine add_output_keywords(table)
     type(table_t), intent(inout) :: table
-    character(7), parameter :: names(9) = ['GLSTAT ', 'MATSUM ', 'NODOUT ', 'ELOUT  ', &
-        'RCFORC ', 'RWFORC ', 'SLEOUT ', 'SPCFORC', 'NCFORC ']
     integer :: k, m
-    do k = 1, size(names)
-      call add_keyword(table, 'DATABASE_'//trim(names(k)), 'table '//trim(names(k)), &
-          required=1, once=.true.)
+    do k = 1, table_count
+      if (k == table_timing) cycle
+      call add_keyword(table, trim(table_keywords(k)), 'table '// &
+          trim(upper(table_names(k))), required=1, once=.true.)
       call add_card(table)
       call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
       call add_field(table, 'BINARY', 'I10 note =1 0=d', 'tables are text')

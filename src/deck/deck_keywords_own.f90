@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The program's own keywords, *BIPACT_..., all optional, each at most once per deck.
 module deck_keywords_own
+  use deck_names, only: table_keywords, table_timing, field_names, mass_names, choices
+  use deck_schemes, only: schemes
   use deck_table, only: table_t, add_keyword, add_card, add_field, keyword_refused
   implicit none
   private
@@ -13,7 +15,7 @@ contains
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'BIPACT_TIME', 'time scheme', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'SCHEME', 'W10 =THETA |THETA|NEWMARK|', 'time scheme')
+    call add_field(table, 'SCHEME', 'W10 =THETA '//choices(schemes%name), 'time scheme')
     call add_field(table, 'THETA', 'R10 >=0.5 <=1', &
         'weight of the velocity at the end; blank = 0.5, or no theta at all')
     call add_field(table, 'XI', 'R10 >=0.5 <=1', &
@@ -23,8 +25,7 @@ contains
     call add_field(table, 'RULE', 'W10 fixed')
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'TYPE', 'W10 =CONSISTENT |CONSISTENT|LUMPED|DISPERSION|', &
-        'mass matrix')
+    call add_field(table, 'TYPE', 'W10 =CONSISTENT '//choices(mass_names), 'mass matrix')
     call add_field(table, 'REDIST', 'I10 =0 >=0 <=1', '1 = massless contact nodes')
     call add_field(table, 'COURANT', 'R10 >=0 <=1', 'of DISPERSION; blank = from DT0')
     call add_keyword(table, 'BIPACT_CONTACT', 'contact solver', required=1, once=.true.)
@@ -65,7 +66,8 @@ contains
     call add_field(table, 'EVERY', 'I10 =0 >=0', 'steps between evaluations; 0 = with GLSTAT')
     call add_field(table, 'GROWTH', 'R10 =1.0E-9 >0', 'growth / largest term that is warned of')
     call add_field(table, 'ACTION', 'W10 =WARN |WARN|STOP|', 'what growth does to the run')
-    call add_keyword(table, 'BIPACT_TIMING', 'table TIMING', required=1, once=.true.)
+    call add_keyword(table, trim(table_keywords(table_timing)), 'table TIMING', required=1, &
+        once=.true.)
     call add_card(table)
     call add_field(table, 'DT', 'R10 =0.0 [T] >=0', 'interval; 0 = off')
     call add_keyword(table, 'BIPACT_PAIR', 'what the sides of a contact are', required=1, &
@@ -96,8 +98,8 @@ contains
     call add_field(table, 'TEND', 'R10 [T] >=0', 'last time; blank = ENDTIM')
     call add_card(table)
     do k = 1, 8
-      call add_field(table, 'NAME'//achar(48 + k), 'W10 |U|V|FORCE|PRESSURE|GAP|STATUS'// &
-          '|STRESS|ENERGY|PRINCIPAL|PART|ALL|', 'a field; no card 2: U, V, STRESS')
+      call add_field(table, 'NAME'//achar(48 + k), 'W10 '// &
+          choices([character(9) :: field_names, 'ALL']), 'a field; no card 2: U, V, STRESS')
     end do
     call add_keyword(table, 'BIPACT_RESTART', 'restart files', required=1, once=.true.)
     call add_card(table)

@@ -29,7 +29,7 @@ module deck_table
     real(wp) :: high = huge(1.0_wp)
     logical :: low_open = .false.
     logical :: high_open = .false.
-    character(64) :: words = ''        !< |A|B|: the words that are allowed; blank = any
+    character(112) :: words = ''        !< |A|B|: the words that are allowed; blank = any
     character(12) :: units = ''
     character(96) :: help = ''
   end type field_t

@@ -1,24 +1,27 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Materials by the keyword that defines them. To add one: its file, its `use`, its case.
+!> Materials by the keyword that defines them. To add one: its file, its `use`, its name and its
+!> case; its card is a row of deck_keywords_mesh.
 module material_registry
   use base_kinds, only: wp
   use material_base, only: material_t
   use material_elastic, only: elastic_t
   implicit none
   private
+  integer, parameter, public :: max_constants = 9
+  character(11), parameter, public :: material_keywords(1) = ['MAT_ELASTIC']
   public :: make_material
 
 contains
 
-  !> A material of one keyword with its constants in the order of the card; not allocated for an
-  !> unknown keyword.
+  !> A material of one keyword with its constants, the fields of its card after the id; not
+  !> allocated for an unknown keyword.
   subroutine make_material(keyword, id, constants, material)
     character(*), intent(in) :: keyword
     integer, intent(in) :: id
     real(wp), intent(in) :: constants(:)
     class(material_t), allocatable, intent(out) :: material
     select case (keyword)
-    case ('MAT_ELASTIC', 'MAT_001')
+    case ('MAT_ELASTIC')
       allocate (material, source=elastic_t(id=id, density=constants(1), young=constants(2), &
           poisson=constants(3)))
     end select

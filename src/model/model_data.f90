@@ -3,6 +3,7 @@
 !> Made once from the deck; nothing in it changes during the run.
 module model_data
   use base_kinds, only: wp
+  use deck_names, only: table_count, field_names
   use material_base, only: material_slot_t
   implicit none
   private
@@ -105,10 +106,6 @@ module model_data
     integer :: record = 0
   end type wall_t
 
-  !> Fields that a file of frames may hold.
-  character(9), parameter, public :: field_names(10) = [character(9) :: 'U', 'V', 'FORCE', &
-      'PRESSURE', 'GAP', 'STATUS', 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART']
-
   !> Field files: which fields, when, of which parts.
   type, public :: field_request_t
     logical :: on = .false.
@@ -131,16 +128,7 @@ module model_data
 
   !> Which tables are asked for, and how often; 0 = off [T].
   type, public :: requests_t
-    real(wp) :: glstat = 0.0_wp
-    real(wp) :: matsum = 0.0_wp
-    real(wp) :: nodout = 0.0_wp
-    real(wp) :: elout = 0.0_wp
-    real(wp) :: rcforc = 0.0_wp
-    real(wp) :: rwforc = 0.0_wp
-    real(wp) :: sleout = 0.0_wp
-    real(wp) :: spcforc = 0.0_wp
-    real(wp) :: ncforc = 0.0_wp
-    real(wp) :: timing = 0.0_wp
+    real(wp) :: interval(table_count) = 0.0_wp  !< in the order of deck_names
     integer, allocatable :: history_node(:)
     integer, allocatable :: history_element(:)
     type(field_request_t) :: field

@@ -9,7 +9,8 @@ module output_fields
   use contact_types, only: contact_t
   use element_base, only: element_t
   use element_registry, only: make_element
-  use model_data, only: model_t, corner_count, field_names
+  use deck_names, only: field_names
+  use model_data, only: model_t, corner_count
   use model_state, only: state_t
   use output_storage, only: mesh_t, field_t
   implicit none

@@ -5,17 +5,14 @@ module output_tables
   use base_format, only: real_writer_t, make_real_writer
   use base_kinds, only: wp, i8
   use base_status, only: status_t, failed
+  use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
+      table_elout, table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, &
+      table_timing
   use model_data, only: model_t
   use output_table, only: table_file_t, open_table, row_is_due, add_number, close_table, &
       reopen_table, check_rows, write_out
   implicit none
   private
-  integer, parameter, public :: table_glstat = 1, table_matsum = 2, table_nodout = 3, &
-      table_elout = 4, table_rcforc = 5, table_sleout = 6, table_spcforc = 7, &
-      table_ncforc = 8, table_timing = 9, table_rwforc = 10
-  integer, parameter :: table_count = 10
-  character(*), parameter :: names(table_count) = [character(7) :: 'glstat', 'matsum', &
-      'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', 'rwforc']
 
   type, public :: tables_t
     type(table_file_t) :: file(table_count)
@@ -36,10 +33,8 @@ contains
     logical, intent(in) :: has_acceleration, again
     type(status_t), intent(inout) :: status
     character(:), allocatable :: more
-    real(wp) :: interval(table_count)
     more = ''
     if (has_acceleration) more = ' ax ay az'
-    interval = intervals(model)
     call open_one(table_glstat, 'time cycle dt kinetic internal total '// &
         'initial external motion friction contact unsolved algorithmic damping '// &
         'residual ratio momx momy momz angx angy angz')
@@ -67,24 +62,15 @@ contains
       character(*), intent(in) :: columns
       if (failed(status)) return
       if (again) then
-        call reopen_table(tables%file(k), folder, trim(names(k)), interval(k), status)
+        call reopen_table(tables%file(k), folder, trim(table_names(k)), &
+            model%requests%interval(k), status)
       else
-        call open_table(tables%file(k), folder, trim(names(k)), interval(k), model%title, &
-            columns, status)
+        call open_table(tables%file(k), folder, trim(table_names(k)), &
+            model%requests%interval(k), model%title, columns, status)
       end if
     end subroutine open_one
 
   end subroutine open_tables
-
-  !> Intervals of the rows [T] in the order of the tables; 0: no table.
-  pure function intervals(model) result(interval)
-    type(model_t), intent(in) :: model
-    real(wp) :: interval(table_count)
-    associate (r => model%requests)
-      interval = [r%glstat, r%matsum, r%nodout, r%elout, r%rcforc, r%sleout, r%spcforc, &
-          r%ncforc, r%timing, r%rwforc]
-    end associate
-  end function intervals
 
   !> Fails where a table has not all rows any more that a run which is to go on had written.
   subroutine check_tables(tables, model, folder, status)
@@ -92,12 +78,10 @@ contains
     type(model_t), intent(in) :: model
     character(*), intent(in) :: folder
     type(status_t), intent(inout) :: status
-    real(wp) :: interval(table_count)
     integer :: k
-    interval = intervals(model)
     do k = 1, table_count
-      if (.not. failed(status)) &
-          call check_rows(tables%file(k), folder, trim(names(k)), interval(k), status)
+      if (.not. failed(status)) call check_rows(tables%file(k), folder, &
+          trim(table_names(k)), model%requests%interval(k), status)
     end do
   end subroutine check_tables
 

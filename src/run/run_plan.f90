@@ -4,6 +4,9 @@
 module run_plan
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
+  use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
+      table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
+      table_timing
   use model_data, only: model_t, count_steps
   use run_data, only: plan_t
   implicit none
@@ -25,7 +28,7 @@ contains
         ' fixed dofs')
     plan%motions = size(model%motion) > 0
     call add_feature(plan, 'motions', plan%motions, to_text(size(model%motion))//' prescribed')
-    plan%reactions = plan%motions .or. model%requests%spcforc > zero
+    plan%reactions = plan%motions .or. model%requests%interval(table_spcforc) > zero
     call add_feature(plan, 'reactions', plan%reactions, 'motions or *DATABASE_SPCFORC')
     call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
         merge('1', '0', model%controls%redistribute))
@@ -79,20 +82,22 @@ contains
   subroutine plan_tables(model, plan)
     type(model_t), intent(in) :: model
     type(plan_t), intent(inout) :: plan
+    !> Order of the lines.
+    integer, parameter :: order(table_count) = [table_glstat, table_matsum, table_nodout, &
+        table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
+        table_timing]
+    character(:), allocatable :: what
+    integer :: k
     associate (r => model%requests)
-      plan%ledger = r%glstat > zero .or. r%matsum > zero .or. model%controls%ledger_every > 0
-      call add_feature(plan, 'glstat', r%glstat > zero, 'every '//to_text(r%glstat))
-      call add_feature(plan, 'matsum', r%matsum > zero, 'every '//to_text(r%matsum))
-      call add_feature(plan, 'nodout', r%nodout > zero, to_text(size(r%history_node))// &
-          ' nodes, every '//to_text(r%nodout))
-      call add_feature(plan, 'elout', r%elout > zero, to_text(size(r%history_element))// &
-          ' elements, every '//to_text(r%elout))
-      call add_feature(plan, 'spcforc', r%spcforc > zero, 'every '//to_text(r%spcforc))
-      call add_feature(plan, 'ncforc', r%ncforc > zero, 'every '//to_text(r%ncforc))
-      call add_feature(plan, 'rwforc', r%rwforc > zero, 'every '//to_text(r%rwforc))
-      call add_feature(plan, 'rcforc', r%rcforc > zero, 'every '//to_text(r%rcforc))
-      call add_feature(plan, 'sleout', r%sleout > zero, 'every '//to_text(r%sleout))
-      call add_feature(plan, 'timing', r%timing > zero, 'every '//to_text(r%timing))
+      plan%ledger = any(r%interval([table_glstat, table_matsum]) > zero) &
+          .or. model%controls%ledger_every > 0
+      do k = 1, table_count
+        what = ''
+        if (order(k) == table_nodout) what = to_text(size(r%history_node))//' nodes, '
+        if (order(k) == table_elout) what = to_text(size(r%history_element))//' elements, '
+        call add_feature(plan, trim(table_names(order(k))), r%interval(order(k)) > zero, &
+            what//'every '//to_text(r%interval(order(k))))
+      end do
       if (model%controls%ledger_every > 0) then
         call add_feature(plan, 'ledger', .true., 'every '// &
             to_text(model%controls%ledger_every)//' steps')

@@ -2,11 +2,11 @@
 !> Rows that are due, from all parts of the run.
 module run_tables
   use base_status, only: status_t
+  use deck_names, only: table_glstat, table_matsum, table_nodout, table_elout, &
+      table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing
   use output_forces, only: write_rcforc, write_rwforc, write_sleout, write_ncforc, write_spcforc
   use output_rows, only: write_glstat, write_matsum, write_nodout, write_elout, write_timing
   use output_table, only: row_is_due, rows_done
-  use output_tables, only: table_glstat, table_matsum, table_nodout, table_elout, &
-      table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing
   use contact_area, only: find_all_areas
   use run_data, only: run_t
   implicit none

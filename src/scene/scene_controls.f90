@@ -5,6 +5,7 @@ module scene_controls
   use cone_types, only: cone_options_t, local_solver
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_problem, add_note
+  use deck_schemes, only: scheme_traits_t, traits_of
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t, controls_t, count_steps
   use scene_contact, only: contact_keyword
@@ -93,6 +94,7 @@ contains
   subroutine read_scheme(deck, controls)
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
+    type(scheme_traits_t) :: traits
     integer :: r
     r = deck%next('BIPACT_TIME', 1, 0)
     if (r == 0) then
@@ -100,14 +102,23 @@ contains
       return
     end if
     controls%scheme = deck%word(r, 'SCHEME')
+    traits = traits_of(controls%scheme)
     if (deck%is_given(r, 'THETA')) controls%theta = deck%real(r, 'THETA')
     controls%xi = controls%theta
     if (deck%is_given(r, 'XI')) controls%xi = deck%real(r, 'XI')
-    if (controls%scheme /= 'NEWMARK') return
-    if (deck%is_given(r, 'THETA')) &
-        call deck%complain(r, 'THETA', 'NEWMARK has no theta: leave it blank')
-    if (deck%is_given(r, 'XI')) call deck%complain(r, 'XI', 'NEWMARK has no xi: leave it blank')
+    call refuse_field(deck, r, controls%scheme, 'THETA', traits%takes_theta)
+    call refuse_field(deck, r, controls%scheme, 'XI', traits%takes_theta)
   end subroutine read_scheme
+
+  !> A field that the scheme does not use must be blank.
+  subroutine refuse_field(deck, record, scheme, name, is_used)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    character(*), intent(in) :: scheme, name
+    logical, intent(in) :: is_used
+    if (.not. is_used .and. deck%is_given(record, name)) call deck%complain(record, name, &
+        'scheme '//trim(scheme)//' has no '//name//': leave it blank')
+  end subroutine refuse_field
 
   subroutine choose_scheme(deck, controls)
     type(deck_t), intent(inout) :: deck
@@ -140,6 +151,7 @@ contains
   subroutine read_mass(deck, controls)
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
+    type(scheme_traits_t) :: traits
     integer :: r
     logical :: midpoint
     r = deck%next('BIPACT_MASS', 1, 0)
@@ -152,7 +164,8 @@ contains
       return
     end if
     if (deck%is_given(r, 'COURANT')) controls%courant = deck%real(r, 'COURANT')
-    if (controls%scheme == 'NEWMARK') then
+    traits = traits_of(controls%scheme)
+    if (traits%takes_gamma) then
       midpoint = &
           .not. (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) > zero)
     else

@@ -5,6 +5,7 @@ module scene_motion
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note
+  use deck_schemes, only: scheme_traits_t, traits_of
   use model_data, only: model_t, motion_t, curve_value, curve_slope, motion_acceleration, &
       motion_displacement
   use scene_ids, only: maps_t, records_of, find_or_complain
@@ -61,6 +62,7 @@ contains
     integer, intent(in) :: record
     logical, intent(in) :: is_set
     type(motion_t), intent(inout) :: motion
+    type(scheme_traits_t) :: traits
     motion%record = record
     call nodes_of(deck, model, maps, record, is_set, motion%node)
     motion%direction = deck%integer(record, 'DOF')
@@ -69,7 +71,8 @@ contains
     motion%factor = deck%real(record, 'SF')
     motion%birth = deck%real(record, 'BIRTH')
     motion%death = deck%real(record, 'DEATH')
-    if (motion%kind == motion_acceleration .and. model%controls%scheme /= 'NEWMARK') &
+    traits = traits_of(model%controls%scheme)
+    if (motion%kind == motion_acceleration .and. .not. traits%has_acceleration) &
         call deck%complain(record, 'VAD', 'scheme '//trim(model%controls%scheme)// &
         ' has no accelerations', 'give the velocity (0) or the displacement (2)')
     if (.not. motion%death > motion%birth) &

@@ -3,6 +3,8 @@
 module scene_output
   use base_kinds, only: wp, zero
   use deck_data, only: deck_t
+  use deck_names, only: table_keywords, table_count, table_nodout, table_elout, table_rcforc, &
+      table_rwforc, table_sleout, table_ncforc, table_spcforc
   use deck_problems, only: add_note
   use model_data, only: model_t, set_t
   use scene_ids, only: maps_t, id_map_t, find_or_complain
@@ -18,17 +20,11 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
     type(set_t) :: no_set(0)
+    integer :: k
     associate (r => model%requests)
-      call read_interval(deck, 'DATABASE_GLSTAT', r%glstat)
-      call read_interval(deck, 'DATABASE_MATSUM', r%matsum)
-      call read_interval(deck, 'DATABASE_NODOUT', r%nodout)
-      call read_interval(deck, 'DATABASE_ELOUT', r%elout)
-      call read_interval(deck, 'DATABASE_RCFORC', r%rcforc)
-      call read_interval(deck, 'DATABASE_RWFORC', r%rwforc)
-      call read_interval(deck, 'DATABASE_SLEOUT', r%sleout)
-      call read_interval(deck, 'DATABASE_SPCFORC', r%spcforc)
-      call read_interval(deck, 'DATABASE_NCFORC', r%ncforc)
-      call read_interval(deck, 'BIPACT_TIMING', r%timing)
+      do k = 1, table_count
+        call read_interval(deck, trim(table_keywords(k)), r%interval(k))
+      end do
       allocate (r%history_node(0), r%history_element(0))
       call read_history(deck, 'DATABASE_HISTORY_NODE', 'node', maps%node, no_set, &
           r%history_node)
@@ -42,28 +38,31 @@ contains
           r%history_element)
       call read_history(deck, 'DATABASE_HISTORY_SHELL_SET', 'element set', maps%element_set, &
           model%element_set, r%history_element)
-      call drop_empty(deck, 'NODOUT without *DATABASE_HISTORY_NODE', &
-          size(r%history_node) == 0, r%nodout)
-      call drop_empty(deck, 'ELOUT without *DATABASE_HISTORY_SHELL', &
-          size(r%history_element) == 0, r%elout)
-      call drop_empty(deck, 'RCFORC without contact', size(model%contact) == 0, r%rcforc)
-      call drop_empty(deck, 'RWFORC without *RIGIDWALL', size(model%wall) == 0, r%rwforc)
-      call drop_empty(deck, 'SLEOUT without contact', &
-          size(model%contact) + size(model%wall) == 0, r%sleout)
-      call drop_empty(deck, 'NCFORC without contact', size(model%contact) == 0, r%ncforc)
-      call drop_empty(deck, 'SPCFORC without supports', &
-          .not. any(model%fixed) .and. size(model%motion) == 0, r%spcforc)
+      call drop_empty(deck, table_nodout, '*DATABASE_HISTORY_NODE', &
+          size(r%history_node) == 0, r%interval)
+      call drop_empty(deck, table_elout, '*DATABASE_HISTORY_SHELL', &
+          size(r%history_element) == 0, r%interval)
+      call drop_empty(deck, table_rcforc, 'contact', size(model%contact) == 0, r%interval)
+      call drop_empty(deck, table_rwforc, '*RIGIDWALL', size(model%wall) == 0, r%interval)
+      call drop_empty(deck, table_sleout, 'contact', &
+          size(model%contact) + size(model%wall) == 0, r%interval)
+      call drop_empty(deck, table_ncforc, 'contact', size(model%contact) == 0, r%interval)
+      call drop_empty(deck, table_spcforc, 'supports', &
+          .not. any(model%fixed) .and. size(model%motion) == 0, r%interval)
     end associate
   end subroutine read_requests
 
-  subroutine drop_empty(deck, what, is_empty, interval)
+  !> A table that would be empty without something that is missing is noted, not made.
+  subroutine drop_empty(deck, table, needed, is_empty, interval)
     type(deck_t), intent(inout) :: deck
-    character(*), intent(in) :: what
+    integer, intent(in) :: table
+    character(*), intent(in) :: needed
     logical, intent(in) :: is_empty
-    real(wp), intent(inout) :: interval
-    if (.not. is_empty .or. .not. interval > zero) return
-    call add_note(deck%problems, '*DATABASE_'//what//': no table')
-    interval = zero
+    real(wp), intent(inout) :: interval(:)
+    if (.not. is_empty .or. .not. interval(table) > zero) return
+    call add_note(deck%problems, '*'//trim(table_keywords(table))//' without '//needed// &
+        ': no table')
+    interval(table) = zero
   end subroutine drop_empty
 
   subroutine read_interval(deck, keyword, interval)

@@ -4,7 +4,8 @@ module scene_storage
   use base_kinds, only: wp, zero
   use deck_data, only: deck_t
   use deck_problems, only: add_note
-  use model_data, only: model_t, field_request_t, restart_request_t, field_names
+  use deck_names, only: field_names
+  use model_data, only: model_t, field_request_t, restart_request_t
   use scene_ids, only: maps_t, find_or_complain
   implicit none
   private

@@ -41,10 +41,8 @@ contains
   pure subroutine newmark_set_step(this, h)
     class(newmark_t), intent(inout) :: this
     real(wp), intent(in) :: h
-    this%name = 'NEWMARK'
     this%h = h
     this%stage = [stage_t(c_m=one/(this%beta*h**2), c_k=one)]
-    this%has_acceleration = .true.
     this%weight_before = one - this%gamma
     this%weight_now = this%gamma
     this%load_work_weight = [one - this%gamma, this%gamma]

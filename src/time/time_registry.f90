@@ -1,7 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Time schemes by name. To add one: its file, its `use`, its case.
+!> Time schemes by name. To add one: its file, its `use`, its case; its traits are a row of
+!> deck_schemes.
 module time_registry
   use base_status, only: status_t, fail, status_deck
+  use deck_schemes, only: scheme_traits_t, traits_of
   use model_data, only: controls_t
   use time_base, only: scheme_t
   use time_newmark, only: newmark_t
@@ -17,6 +19,7 @@ contains
     type(controls_t), intent(in) :: controls
     class(scheme_t), allocatable, intent(out) :: scheme
     type(status_t), intent(inout) :: status
+    type(scheme_traits_t) :: traits
     select case (trim(controls%scheme))
     case ('THETA')
       allocate (scheme, source=theta_t(theta=controls%theta, xi=controls%xi))
@@ -27,6 +30,9 @@ contains
           '" is not available')
       return
     end select
+    traits = traits_of(controls%scheme)
+    scheme%name = traits%name
+    scheme%has_acceleration = traits%has_acceleration
     call scheme%set_step(controls%dt)
   end subroutine make_scheme
 

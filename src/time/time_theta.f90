@@ -40,7 +40,6 @@ contains
   pure subroutine theta_set_step(this, h)
     class(theta_t), intent(inout) :: this
     real(wp), intent(in) :: h
-    this%name = 'THETA'
     this%h = h
     this%stage = [stage_t(c_m=one/(this%theta*h**2), c_k=this%xi)]
     if (.not. this%xi > half) this%stage(1)%c_c = layer_damping

@@ -1,0 +1,43 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Names that decks give to tables, fields and masses: the one place of each. The table of
+!> keywords, the checks, the plan and the files take them from here.
+module deck_names
+  implicit none
+  private
+  integer, parameter, public :: table_glstat = 1, table_matsum = 2, table_nodout = 3, &
+      table_elout = 4, table_rcforc = 5, table_sleout = 6, table_spcforc = 7, &
+      table_ncforc = 8, table_timing = 9, table_rwforc = 10
+  integer, parameter, public :: table_count = 10
+  !> File name without .tab.
+  character(7), parameter, public :: table_names(table_count) = [character(7) :: 'glstat', &
+      'matsum', 'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', 'rwforc']
+  !> Keyword that asks for it.
+  character(16), parameter, public :: table_keywords(table_count) = [character(16) :: &
+      'DATABASE_GLSTAT', 'DATABASE_MATSUM', 'DATABASE_NODOUT', 'DATABASE_ELOUT', &
+      'DATABASE_RCFORC', 'DATABASE_SLEOUT', 'DATABASE_SPCFORC', 'DATABASE_NCFORC', &
+      'BIPACT_TIMING', 'DATABASE_RWFORC']
+
+  !> Fields that a file of frames may hold.
+  character(9), parameter, public :: field_names(10) = [character(9) :: 'U', 'V', 'FORCE', &
+      'PRESSURE', 'GAP', 'STATUS', 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART']
+
+  !> Mass matrices.
+  character(10), parameter, public :: mass_names(3) = [character(10) :: 'CONSISTENT', &
+      'LUMPED', 'DISPERSION']
+
+  public :: choices
+
+contains
+
+  !> Words as a field of the table of keywords takes them: |A|B|.
+  pure function choices(names) result(text)
+    character(*), intent(in) :: names(:)
+    character(:), allocatable :: text
+    integer :: k
+    text = '|'
+    do k = 1, size(names)
+      text = text//trim(names(k))//'|'
+    end do
+  end function choices
+
+end module deck_names

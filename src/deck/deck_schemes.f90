@@ -1,0 +1,34 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Time schemes by name: which fields of *BIPACT_TIME each takes and what it has. The table of
+!> keywords takes its words from here, the checks of the scene go by it, and time_registry makes
+!> the schemes.
+module deck_schemes
+  implicit none
+  private
+
+  type, public :: scheme_traits_t
+    character(10) :: name = ''
+    logical :: takes_theta = .false.       !< THETA and XI
+    logical :: takes_gamma = .false.       !< GAMMA and BETA of *CONTROL_IMPLICIT_DYNAMICS
+    logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
+  end type scheme_traits_t
+
+  type(scheme_traits_t), parameter, public :: schemes(2) = [ &
+      scheme_traits_t('THETA', takes_theta=.true.), &
+      scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.)]
+
+  public :: traits_of
+
+contains
+
+  !> Traits of a scheme; of an unknown name, nothing.
+  pure function traits_of(name) result(traits)
+    character(*), intent(in) :: name
+    type(scheme_traits_t) :: traits
+    integer :: k
+    do k = 1, size(schemes)
+      if (schemes(k)%name == name) traits = schemes(k)
+    end do
+  end function traits_of
+
+end module deck_schemes
