@@ -10,7 +10,7 @@ program test_base
   use base_sort, only: sort_order, sort_integers, find_sorted
   use base_status, only: status_t, fail, failed, add_place, status_text, status_deck, &
       status_file, status_ok
-  use base_strings, only: edit_distance
+  use base_strings, only: edit_distance, to_text
   use check, only: test_start, test_end, check_true, check_equal, seed_random
   implicit none
   type(real_writer_t) :: writer
@@ -22,6 +22,7 @@ program test_base
   call test_special_reals()
   call test_ties()
   call test_integers()
+  call test_numbers_as_text()
   call test_sorting()
   call test_archive()
   call test_archive_grows()
@@ -145,6 +146,28 @@ contains
     call put_integer(-7, narrow)
     call check_equal(narrow, ' -7', 'a negative digit')
   end subroutine test_integers
+
+  !> Numbers of messages and logs: integers as I0 has them, reals in six digits.
+  subroutine test_numbers_as_text()
+    character(20) :: text
+    integer(i8) :: number
+    integer :: k
+    do k = 0, 62
+      number = ishft(1_i8, k)
+      write (text, '(i0)') number
+      call check_equal(to_text(number), trim(text), 'a power of two')
+      write (text, '(i0)') -number + 1_i8
+      call check_equal(to_text(-number + 1_i8), trim(text), 'minus a power of two')
+    end do
+    call check_equal(to_text(-huge(number) - 1_i8), '-9223372036854775808', 'the smallest')
+    call check_equal(to_text(-2147483647 - 1), '-2147483648', 'the smallest default one')
+    call check_equal(to_text(1.5e-3_wp), '0.0015', 'a small real')
+    call check_equal(to_text(-2.0e8_wp), '-2.0E8', 'a large real')
+    call check_equal(to_text(1.0e-123_wp), '1.0E-123', 'three digits of exponent')
+    call check_equal(to_text(1234567.0_wp), '1234567.0', 'as many digits as are kept')
+    call check_equal(to_text(0.0_wp), '0.0', 'nothing')
+    call check_equal(to_text(-1.0_wp/3.0_wp), '-0.3333333', 'minus a third')
+  end subroutine test_numbers_as_text
 
   subroutine test_sorting()
     integer :: n, k, wrong
