@@ -10,38 +10,71 @@ module deck_echo
   private
   public :: write_echo
 
+  !> Lines on their way to a unit, many at a time: a WRITE of each would be most of the work.
+  type :: lines_t
+    integer :: unit = -1
+    integer :: filled = 0
+    character(32768) :: buffer
+  end type lines_t
+
 contains
 
   !> Writes the echo deck to an open formatted unit.
   subroutine write_echo(deck, unit)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: unit
+    type(lines_t) :: lines
     integer :: b, r
-    write (unit, '(a)') '$ the deck as understood: includes, parameters and defaults resolved'
-    write (unit, '(a)') '*KEYWORD'
+    lines%unit = unit
+    call put_line(lines, '$ the deck as understood: includes, parameters and defaults resolved')
+    call put_line(lines, '*KEYWORD')
     do b = 1, deck%blocks
       associate (block => deck%block(b))
-        write (unit, '(a)') '*'//trim(block%written)//trim(merge('+', ' ', block%long))
+        call put_line(lines, '*'//trim(block%written)//trim(merge('+', ' ', block%long)))
         do r = block%first, block%last
           associate (line => deck%file(block%file)%text( &
               deck%record(r)%first:deck%record(r)%last))
             if (deck%record(r)%card == 0) then
-              write (unit, '(a)') line
+              call put_line(lines, line)
             else
-              call write_card(deck, unit, r, line, &
+              call write_card(deck, lines, r, line, &
                   deck%table%keyword(block%keyword)%card(deck%record(r)%card), block%long)
             end if
           end associate
         end do
       end associate
     end do
-    write (unit, '(a)') '*END'
+    call put_line(lines, '*END')
+    call write_out(lines)
   end subroutine write_echo
 
+  subroutine put_line(lines, line)
+    type(lines_t), intent(inout) :: lines
+    character(*), intent(in) :: line
+    if (lines%filled + len(line) + 1 > len(lines%buffer)) call write_out(lines)
+    if (len(line) + 1 > len(lines%buffer)) then
+      write (lines%unit, '(a)') line
+      return
+    end if
+    associate (first => lines%filled + 1, last => lines%filled + len(line) + 1)
+      lines%buffer(first:last - 1) = line
+      lines%buffer(last:last) = new_line('a')
+    end associate
+    lines%filled = lines%filled + len(line) + 1
+  end subroutine put_line
+
+  !> What is held. The end of the record is that of the last line.
+  subroutine write_out(lines)
+    type(lines_t), intent(inout) :: lines
+    if (lines%filled > 0) write (lines%unit, '(a)') lines%buffer(:lines%filled - 1)
+    lines%filled = 0
+  end subroutine write_out
+
   !> One card: in columns, or in comma form where it was, or where a value needs more room.
-  subroutine write_card(deck, unit, r, line, card, long)
+  subroutine write_card(deck, lines, r, line, card, long)
     type(deck_t), intent(in) :: deck
-    integer, intent(in) :: unit, r
+    type(lines_t), intent(inout) :: lines
+    integer, intent(in) :: r
     character(*), intent(in) :: line
     type(card_t), intent(in) :: card
     logical, intent(in) :: long
@@ -50,12 +83,12 @@ contains
     integer :: f, width, first
     logical :: comma
     if (card%field(1)%kind == 'T') then
-      write (unit, '(a)') line
+      call put_line(lines, line)
       return
     end if
-    comma = position_of(line, ',') > 0
+    comma = deck%record(r)%comma
     if (plain(line, card, comma, long)) then
-      write (unit, '(a)') line
+      call put_line(lines, line)
       return
     end if
     fixed = ''
@@ -74,9 +107,9 @@ contains
       list = list//value//','
     end do
     if (comma) then
-      write (unit, '(a)') list(1:max(verify(list, ',', back=.true.), 1))//','
+      call put_line(lines, list(1:max(verify(list, ',', back=.true.), 1))//',')
     else
-      write (unit, '(a)') trim(fixed)
+      call put_line(lines, trim(fixed))
     end if
   end subroutine write_card
 
