@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The cards under one keyword: which card each line is, and how many there must be.
 module deck_card
-  use base_strings, only: to_text
+  use base_strings, only: to_text, position_of
   use deck_check, only: check_card, check_head
   use deck_data, only: deck_t, block_t, record_t
   use deck_problems, only: add_note
@@ -38,8 +38,8 @@ contains
     integer, intent(in) :: row
     integer :: b
     do b = 1, deck%blocks - 1
-      if (deck%table%keyword(deck%block(b)%keyword)%canonical &
-          /= deck%table%keyword(row)%canonical) cycle
+      if (deck%table%keyword(deck%block(b)%keyword)%canonical_row &
+          /= deck%table%keyword(row)%canonical_row) cycle
       call deck%complain_at(cursor%file, cursor%line, 0, 0, '*'// &
           trim(deck%table%keyword(row)%name)//' stands twice', '', 'the first is at '// &
           deck%file(deck%block(b)%file)%path//':'//to_text(deck%block(b)%line))
@@ -155,7 +155,8 @@ contains
     end if
     deck%records = deck%records + 1
     deck%record(deck%records) = record_t(block=deck%blocks, card=card, line=cursor%line, &
-        first=cursor%first, last=cursor%last)
+        first=cursor%first, last=cursor%last, comma=position_of( &
+        deck%file(cursor%file)%text(cursor%first:cursor%last), ',') > 0)
   end subroutine add_record
 
   !> Mandatory cards of the last set must all be there.

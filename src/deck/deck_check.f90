@@ -45,7 +45,6 @@ contains
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
     integer :: f, first, last, left, right
-    logical :: comma
     associate (r => deck%record(record))
       associate (block => deck%block(r%block))
         associate (line => deck%file(block%file)%text(r%first:r%last), &
@@ -54,18 +53,17 @@ contains
             call check_text(deck, record, line, card)
             return
           end if
-          comma = position_of(line, ',') > 0
           call check_bytes(deck, record, line)
-          if (comma) then
+          if (r%comma) then
             call check_commas(deck, record, line, card)
           else
             call check_columns(deck, record, line, card, block%long)
           end if
           do f = 1, card%fields
-            call field_span(line, card%field(f), f, comma, block%long, first, last)
+            call field_span(line, card%field(f), f, r%comma, block%long, first, last)
             if (card%field(f)%kind == 'T') cycle
             if (last >= first) then
-              call slice_field(line, card%field(f), f, comma, block%long, left, right)
+              call slice_field(line, card%field(f), f, r%comma, block%long, left, right)
               call check_field(deck, record, f, card%field(f), line(first:last), &
                   line(left:min(right, len(line))))
             else if (card%field(f)%required) then
@@ -208,7 +206,7 @@ contains
   !> Where "&" stands in "&name" or "-&name"; 0 if the text is no reference to a parameter.
   pure integer function reference_mark(text)
     character(*), intent(in) :: text
-    reference_mark = scan(text(1:min(2, len(text))), '&')
+    reference_mark = position_of(text(1:min(2, len(text))), '&')
     if (reference_mark == 2) reference_mark = merge(2, 0, text(1:1) == '-')
   end function reference_mark
 

@@ -8,7 +8,7 @@ module deck_data
   use deck_number, only: scan_integer, scan_real
   use deck_problems, only: problems_t, line_t, add_problem, is_told, render, full
   use deck_source, only: source_file_t
-  use deck_table, only: table_t, field_t, field_index
+  use deck_table, only: table_t, field_t, field_index, find_keyword
   implicit none
   private
 
@@ -29,6 +29,7 @@ module deck_data
     integer :: line = 0
     integer :: first = 1            !< text(first:last) of the file
     integer :: last = 0
+    logical :: comma = .false.      !< commas separate its fields
   end type record_t
 
   !> A name of *PARAMETER.
@@ -155,6 +156,7 @@ contains
   end subroutine slice_field
 
   !> The characters first:last of a field on its line, no blanks around; last < first: blank.
+  !> (Compared by their codes: the compiler takes a comparison with a blank for LEN_TRIM.)
   pure subroutine field_span(line, field, f, comma, long, first, last)
     character(*), intent(in) :: line
     type(field_t), intent(in) :: field
@@ -163,14 +165,15 @@ contains
     logical, intent(in) :: long
     integer, intent(out) :: first
     integer, intent(out) :: last
+    integer, parameter :: blank = iachar(' ')
     call slice_field(line, field, f, comma, long, first, last)
     last = min(last, len(line))
     do while (first <= last)
-      if (line(first:first) /= ' ') exit
+      if (iachar(line(first:first)) /= blank) exit
       first = first + 1
     end do
     do while (last >= first)
-      if (line(last:last) /= ' ') exit
+      if (iachar(line(last:last)) /= blank) exit
       last = last - 1
     end do
   end subroutine field_span
@@ -212,10 +215,8 @@ contains
       associate (block => deck%block(r%block))
         row = block%keyword
         card = r%card
-        associate (line => deck%file(block%file)%text(r%first:r%last))
-          call field_span(line, deck%table%keyword(row)%card(card)%field(f), f, &
-              index(line, ',') > 0, block%long, first, last)
-        end associate
+        call field_span(deck%file(block%file)%text(r%first:r%last), &
+            deck%table%keyword(row)%card(card)%field(f), f, r%comma, block%long, first, last)
         first = first + r%first - 1
         last = last + r%first - 1
       end associate
@@ -235,17 +236,24 @@ contains
     associate (field => this%table%keyword(row)%card(card)%field(f), &
         text => this%file(this%block(this%record(record)%block)%file)%text)
       if (ok) then
-        if (scan(text(first:min(first + 1, last)), '&') > 0) then
+        if (is_reference(text(first:last))) then
           call convert(parameter_text(this, record, text(first:last)), field%kind, value, ok)
         else
           call convert(text(first:last), field%kind, value, ok)
         end if
         if (field%zero_is_default) ok = ok .and. abs(value) > 0.0_wp
       end if
-      if (.not. ok .and. len_trim(field%default) > 0) &
-          call convert(trim(field%default), field%kind, value, ok)
+      if (ok .or. len_trim(field%default) == 0) return
+      call convert(trim(field%default), field%kind, value, ok)
     end associate
   end function deck_number_at
+
+  !> Is the text of a field "&name" or "-&name" (or the like, which has been refused)?
+  pure logical function is_reference(text)
+    character(*), intent(in) :: text
+    is_reference = text(1:1) == '&'
+    if (len(text) > 1) is_reference = is_reference .or. text(2:2) == '&'
+  end function is_reference
 
   !> "&name" or "-&name" as text; empty when there is no such parameter.
   pure function parameter_text(deck, record, reference) result(text)
@@ -282,7 +290,7 @@ contains
         whole => this%file(this%block(this%record(record)%block)%file)%text)
       if (last < first) then
         text = trim(field%default)
-      else if (field%kind /= 'T' .and. scan(whole(first:min(first + 1, last)), '&') > 0) then
+      else if (field%kind /= 'T' .and. is_reference(whole(first:last))) then
         text = parameter_text(this, record, whole(first:last))
       else
         text = whole(first:last)
@@ -345,20 +353,26 @@ contains
     end associate
   end function deck_given
 
-  !> Next record after `after` (0 to start) that is this card of this keyword; 0 when there is
-  !> none.
+  !> Next record that is this card of this keyword, after a record of the keyword (0: the first
+  !> one); 0 when there is none.
   pure integer function deck_next(this, name, card, after)
     class(deck_t), intent(in) :: this
     character(*), intent(in) :: name
     integer, intent(in) :: card
     integer, intent(in) :: after
-    integer :: b, first
+    integer :: b, row
     b = 1
-    first = after + 1
-    if (after > 0) b = this%record(after)%block
+    if (after > 0) then
+      b = this%record(after)%block
+      do deck_next = after + 1, this%block(b)%last
+        if (this%record(deck_next)%card == card) return
+      end do
+      b = b + 1
+    end if
+    row = find_keyword(this%table, name)
     do b = b, this%blocks
-      if (this%table%keyword(this%block(b)%keyword)%canonical /= name) cycle
-      do deck_next = max(first, this%block(b)%first), this%block(b)%last
+      if (this%table%keyword(this%block(b)%keyword)%canonical_row /= row) cycle
+      do deck_next = this%block(b)%first, this%block(b)%last
         if (this%record(deck_next)%card == card) return
       end do
     end do
@@ -411,7 +425,7 @@ contains
         f = field_index(keyword%card(r%card), name)
         if (f > 0) then
           head = head//', field '//name
-          call slice_field(line, keyword%card(r%card)%field(f), f, index(line, ',') > 0, &
+          call slice_field(line, keyword%card(r%card)%field(f), f, r%comma, &
               this%block(r%block)%long, first, last)
         end if
         call this%complain_at(this%block(r%block)%file, r%line, first, last, head//': '//what, &

@@ -48,17 +48,19 @@ contains
     logical, intent(out) :: ok
     integer(i8) :: mantissa
     integer :: digits, scale, exponent, mark, k, digit
-    logical :: point
+    logical :: point, any_digit
     real(wp), parameter :: power(0:22) = [(10.0_wp**k, k=0, 22)]
     value = 0.0_wp
     mantissa = 0
     digits = 0
     scale = 0
     point = .false.
+    any_digit = .false.
     mark = len(text) + 1
     do k = 1, len(text)
       digit = iachar(text(k:k)) - 48
       if (digit >= 0 .and. digit <= 9) then
+        any_digit = .true.
         if (digits < 18) mantissa = 10_i8*mantissa + digit
         if (mantissa > 0) digits = digits + 1
         if (point) scale = scale - 1
@@ -70,7 +72,7 @@ contains
       end if
     end do
     call scan_exponent(text(mark:), exponent, ok)
-    if (ok) ok = scan(text(1:mark - 1), '0123456789') > 0
+    ok = ok .and. any_digit
     if (.not. ok) return
     scale = scale + exponent
     if (digits == 0) then

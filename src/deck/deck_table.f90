@@ -3,7 +3,8 @@
 !> table (deck_keywords) feeds the reader, the messages, the echo and the documentation.
 module deck_table
   use base_kinds, only: wp
-  use base_strings, only: edit_distance
+  use base_strings, only: edit_distance, position_of
+  use deck_number, only: scan_integer, scan_real
   implicit none
   private
   integer, parameter, public :: name_length = 10
@@ -46,6 +47,8 @@ module deck_table
   type, public :: keyword_t
     character(keyword_length) :: name = ''       !< a name that ends in * stands for a family
     character(keyword_length) :: canonical = ''  !< the name that handlers know it by
+    integer :: canonical_row = 0   !< row of that name
+    integer :: stem = 0            !< of a family: the length of its name before the *
     integer :: class = keyword_used
     integer :: cards = 0
     integer :: required = 0        !< cards that must be there
@@ -63,7 +66,13 @@ module deck_table
     integer :: n = 0
     type(keyword_t), allocatable :: keyword(:)
     logical :: is_complete = .false.   !< with the keywords that are skipped or refused
+    !> Rows by the hash of their names, 0 = free; a name whose place is taken has the next free
+    !> one.
+    integer, allocatable, private :: slot(:)
   end type table_t
+
+  !> Rows that a table has room for at first; more than there are, so that it seldom grows.
+  integer, parameter :: first_rows = 512
 
   public :: add_keyword, add_alias, add_card, add_field, find_keyword, find_nearest, &
       field_index, family_of
@@ -78,11 +87,11 @@ contains
     character(*), intent(in) :: help
     integer, intent(in), optional :: class, required, repeat_from
     logical, intent(in), optional :: title, id, once, noted, title_is_id
-    if (.not. allocated(table%keyword)) allocate (table%keyword(480))
-    table%n = table%n + 1
+    call make_row(table, name)
     associate (k => table%keyword(table%n))
-      k%name = name
       k%canonical = name
+      k%canonical_row = table%n
+      k%stem = max(0, position_of(name, '*') - 1)
       k%help = help
       if (present(class)) k%class = class
       if (present(required)) k%required = required
@@ -100,11 +109,54 @@ contains
   subroutine add_alias(table, name)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name
-    table%n = table%n + 1
+    call make_row(table, name)
     table%keyword(table%n) = table%keyword(table%n - 1)
     table%keyword(table%n)%name = name
     table%keyword(table%n)%help = 'the same as *'//trim(table%keyword(table%n)%canonical)
   end subroutine add_alias
+
+  !> The next row, found by its name from now on. Twice as many slots as rows at least.
+  subroutine make_row(table, name)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name
+    type(keyword_t), allocatable :: longer(:)
+    integer :: k
+    if (.not. allocated(table%keyword)) then
+      allocate (table%keyword(first_rows), table%slot(0:2*first_rows - 1))
+      table%slot = 0
+    else if (table%n == size(table%keyword)) then
+      allocate (longer(2*table%n))
+      longer(1:table%n) = table%keyword
+      call move_alloc(longer, table%keyword)
+      deallocate (table%slot)
+      allocate (table%slot(0:4*table%n - 1))
+      table%slot = 0
+      do k = 1, table%n
+        table%slot(slot_of(table, trim(table%keyword(k)%name))) = k
+      end do
+    end if
+    table%n = table%n + 1
+    table%keyword(table%n)%name = name
+    k = slot_of(table, name)
+    if (table%slot(k) == 0) table%slot(k) = table%n
+  end subroutine make_row
+
+  !> The slot that holds the row of a name, or the free one where it belongs.
+  pure integer function slot_of(table, name)
+    type(table_t), intent(in) :: table
+    character(*), intent(in) :: name
+    integer :: k, row
+    slot_of = 0
+    do k = 1, len_trim(name)
+      slot_of = mod(31*slot_of + iachar(name(k:k)), size(table%slot))
+    end do
+    do
+      row = table%slot(slot_of)
+      if (row == 0) return
+      if (table%keyword(row)%name == name) return
+      slot_of = mod(slot_of + 1, size(table%slot))
+    end do
+  end function slot_of
 
   !> Opens a new card of the last keyword.
   subroutine add_card(table)
@@ -127,6 +179,7 @@ contains
     character(*), intent(in) :: spec
     character(*), intent(in), optional :: help
     integer :: start, next
+    logical :: ok
     associate (c => table%keyword(table%n)%card(table%keyword(table%n)%cards))
       c%fields = c%fields + 1
       associate (f => c%field(c%fields))
@@ -134,21 +187,30 @@ contains
         if (present(help)) f%help = help
         f%kind = spec(1:1)
         if (c%fields > 1) f%first = c%field(c%fields - 1)%first + c%field(c%fields - 1)%width
-        next = index(spec//' ', ' ')
-        read (spec(2:next - 1), *) f%width
+        next = word_end(spec, 1)
+        call scan_integer(spec(2:next), f%width, ok)
         do while (next < len(spec))
-          start = next + 1
-          next = start - 1 + index(spec(start:)//' ', ' ')
-          call apply_word(f, spec(start:next - 1))
+          start = next + 2
+          next = word_end(spec, start)
+          call apply_word(f, spec(start:next))
         end do
       end associate
     end associate
   end subroutine add_field
 
+  !> The last character of the word that starts at `start`.
+  pure integer function word_end(text, start)
+    character(*), intent(in) :: text
+    integer, intent(in) :: start
+    word_end = position_of(text(start:), ' ')
+    if (word_end == 0) word_end = len(text) - start + 2
+    word_end = start + word_end - 2
+  end function word_end
+
   pure subroutine apply_word(f, word)
     type(field_t), intent(inout) :: f
     character(*), intent(in) :: word
-    integer :: skip
+    logical :: ok
     select case (word)
     case ('req')
       f%required = .true.
@@ -161,7 +223,6 @@ contains
     case ('0=d')
       f%zero_is_default = .true.
     case default
-      skip = merge(2, 1, index(word, '>=') == 1 .or. index(word, '<=') == 1)
       select case (word(1:1))
       case ('=')
         f%default = word(2:)
@@ -170,11 +231,11 @@ contains
       case ('|')
         f%words = word
       case ('>')
-        read (word(skip + 1:), *) f%low
-        f%low_open = skip == 1
+        f%low_open = word(2:2) /= '='
+        call scan_real(word(merge(2, 3, f%low_open):), f%low, ok)
       case ('<')
-        read (word(skip + 1:), *) f%high
-        f%high_open = skip == 1
+        f%high_open = word(2:2) /= '='
+        call scan_real(word(merge(2, 3, f%high_open):), f%high, ok)
       end select
     end select
   end subroutine apply_word
@@ -184,11 +245,8 @@ contains
     type(table_t), intent(in) :: table
     character(*), intent(in) :: name
     find_keyword = 0
-    if (len(name) > keyword_length) return
-    do find_keyword = 1, table%n
-      if (table%keyword(find_keyword)%name == name) return
-    end do
-    find_keyword = 0
+    if (len(name) > keyword_length .or. .not. allocated(table%slot)) return
+    find_keyword = table%slot(slot_of(table, name))
   end function find_keyword
 
   !> The row whose name is the fewest single-character edits away.
@@ -200,6 +258,8 @@ contains
     best = 1
     distance = huge(distance)
     do k = 1, table%n
+      ! Each edit changes the length by one at most.
+      if (abs(len_trim(table%keyword(k)%name) - min(len(name), 64)) >= distance) cycle
       d = edit_distance(name(1:min(len(name), 64)), trim(table%keyword(k)%name))
       if (d >= distance) cycle
       distance = d
@@ -211,11 +271,11 @@ contains
   pure integer function family_of(table, name)
     type(table_t), intent(in) :: table
     character(*), intent(in) :: name
-    integer :: star
     do family_of = 1, table%n
-      star = index(table%keyword(family_of)%name, '*')
-      if (star == 0) cycle
-      if (index(name, table%keyword(family_of)%name(1:star - 1)) == 1) return
+      associate (k => table%keyword(family_of))
+        if (k%stem == 0 .or. k%stem > len(name)) cycle
+        if (k%name(1:k%stem) == name(1:k%stem)) return
+      end associate
     end do
     family_of = 0
   end function family_of
