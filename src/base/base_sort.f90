@@ -4,7 +4,7 @@ module base_sort
   use base_kinds, only: wp
   implicit none
   private
-  public :: sort_order, sort_order_real, find_sorted, sort_integers
+  public :: sort_order, sort_order_real, find_sorted, first_not_below, sort_integers
 
 contains
 
@@ -116,5 +116,23 @@ contains
       end if
     end do
   end function find_sorted
+
+  !> Position of the first number >= item in an increasing list; one more than its size where
+  !> all are below.
+  pure integer function first_not_below(list, item)
+    integer, intent(in) :: list(:)
+    integer, intent(in) :: item
+    integer :: last, middle
+    first_not_below = 1
+    last = size(list) + 1
+    do while (first_not_below < last)
+      middle = first_not_below + (last - first_not_below)/2
+      if (list(middle) < item) then
+        first_not_below = middle + 1
+      else
+        last = middle
+      end if
+    end do
+  end function first_not_below
 
 end module base_sort

@@ -2,6 +2,7 @@
 !> Curves and loads: from cards to the model.
 module scene_loads
   use base_kinds, only: wp, zero, half
+  use base_list, only: append
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note
@@ -111,23 +112,23 @@ contains
     type(maps_t), intent(in) :: maps
     character(16), parameter :: keyword(4) = [character(16) :: 'LOAD_NODE_SET', &
         'LOAD_NODE_POINT', 'LOAD_SEGMENT_SET', 'LOAD_SEGMENT']
-    integer, allocatable :: record(:)
-    integer :: k, m, n
+    integer, allocatable :: of_keyword(:), record(:)
+    integer :: k, m, n, last(0:4)
     n = 0
+    last(0) = 0
     do k = 1, 4
-      call records_of(deck, trim(keyword(k)), 1, record)
-      n = n + size(record)
+      call records_of(deck, trim(keyword(k)), 1, of_keyword)
+      call append(of_keyword, record, n)
+      last(k) = n
     end do
     allocate (model%load(n))
-    n = 0
     do k = 1, 4
-      call records_of(deck, trim(keyword(k)), 1, record)
-      do m = 1, size(record)
-        n = n + 1
-        if (k <= 2) call read_nodal(deck, model, maps, record(m), k == 1, model%load(n))
-        if (k > 2) call read_pressure(deck, model, maps, record(m), k == 3, model%load(n))
+      do m = last(k - 1) + 1, last(k)
+        if (k <= 2) call read_nodal(deck, model, maps, record(m), k == 1, model%load(m))
+        if (k > 2) call read_pressure(deck, model, maps, record(m), k == 3, model%load(m))
       end do
     end do
+    if (deck%problems%count == 0) call find_pressures(deck, model, last(2), record(:n))
     call read_gravity(deck, model, maps)
   end subroutine read_loads
 
@@ -146,9 +147,7 @@ contains
     load%factor = deck%real(record, 'SF')
   end subroutine read_nodal
 
-  !> A pressure on element edges as forces on their nodes: half of p times length times
-  !> thickness on each, against the outward normal of the reference geometry (exact for linear
-  !> edges).
+  !> The nodes of a pressure, two for each segment; its forces follow.
   subroutine read_pressure(deck, model, maps, record, is_set, load)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -156,37 +155,68 @@ contains
     integer, intent(in) :: record
     logical, intent(in) :: is_set
     type(load_t), intent(inout) :: load
-    integer, allocatable :: segment(:, :), owner(:)
-    real(wp) :: d(2)
-    integer :: row, s
+    integer :: row
     load%curve = curve_of(deck, model, maps, record)
     load%factor = deck%real(record, 'SF')
     load%arrival = deck%real(record, 'AT')
-    allocate (load%node(0), load%force(2, 0), segment(2, 1))
     if (is_set) then
       row = find_or_complain(deck, maps%segment_set, record, 'SSID', &
           deck%integer(record, 'SSID'), 'segment set')
-      if (row > 0) segment = model%segment_set(row)%node
+      if (row > 0) load%node = reshape(model%segment_set(row)%node, &
+          [size(model%segment_set(row)%node)])
     else
-      call read_segment(deck, maps, record, segment(:, 1))
+      allocate (load%node(2))
+      call read_segment(deck, maps, record, load%node)
     end if
-    if (deck%problems%count > 0) return
-    owner = segment_owner(model, segment)
-    load%node = reshape(segment, [size(segment)])
-    deallocate (load%force)
-    allocate (load%force(2, size(load%node)))
-    do s = 1, size(segment, 2)
-      if (owner(s) == 0) then
-        call deck%complain(record, 'N1', 'expected two nodes of an exposed element edge')
-        return
-      end if
-      d = model%x(:, segment(2, s)) - model%x(:, segment(1, s))
-      if (owner(s) < 0) d = -d
-      d = half*model%part(model%element_part(abs(owner(s))))%thickness*[-d(2), d(1)]
-      load%force(:, 2*s - 1) = d
-      load%force(:, 2*s) = d
-    end do
   end subroutine read_pressure
+
+  !> Forces of the pressures, the loads after `before`; record: the cards of all loads.
+  subroutine find_pressures(deck, model, before, record)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    integer, intent(in) :: before
+    integer, intent(in) :: record(:)
+    integer, allocatable :: node(:), owner(:)
+    integer :: k, n
+    n = 0
+    do k = before + 1, size(record)
+      call append(model%load(k)%node, node, n)
+    end do
+    if (n == 0) return
+    owner = segment_owner(model, reshape(node(:n), [2, n/2]))
+    n = 0
+    do k = before + 1, size(record)
+      call find_pressure(deck, model, record(k), owner(n + 1:), k)
+      n = n + size(model%load(k)%node)/2
+    end do
+  end subroutine find_pressures
+
+  !> A pressure on element edges as forces on their nodes: half of p times length times
+  !> thickness on each, against the outward normal of the reference geometry (exact for linear
+  !> edges). owner: the elements of its segments, as SEGMENT_OWNER has them.
+  subroutine find_pressure(deck, model, record, owner, row)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    integer, intent(in) :: record
+    integer, intent(in) :: owner(:)
+    integer, intent(in) :: row
+    real(wp) :: d(2)
+    integer :: s
+    associate (load => model%load(row))
+      allocate (load%force(2, size(load%node)))
+      do s = 1, size(load%node)/2
+        if (owner(s) == 0) then
+          call deck%complain(record, 'N1', 'expected two nodes of an exposed element edge')
+          return
+        end if
+        d = model%x(:, load%node(2*s)) - model%x(:, load%node(2*s - 1))
+        if (owner(s) < 0) d = -d
+        d = half*model%part(model%element_part(abs(owner(s))))%thickness*[-d(2), d(1)]
+        load%force(:, 2*s - 1) = d
+        load%force(:, 2*s) = d
+      end do
+    end associate
+  end subroutine find_pressure
 
   subroutine read_gravity(deck, model, maps)
     type(deck_t), intent(inout) :: deck

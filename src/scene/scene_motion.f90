@@ -114,8 +114,11 @@ contains
     owner = 0
     r = deck%next('INITIAL_VELOCITY', 1, 0)
     do while (r > 0)
-      list = [(k, k=1, model%nodes)]
-      if (deck%integer(r, 'NSID') /= 0) call nodes_of(deck, model, maps, r, .true., list)
+      if (deck%integer(r, 'NSID') == 0) then
+        list = [(k, k=1, model%nodes)]
+      else
+        call nodes_of(deck, model, maps, r, .true., list)
+      end if
       if (deck%follow(r, 2) > 0) &
           call give_velocity(deck, model, deck%follow(r, 2), list, zero, [zero, zero], owner)
       r = deck%next('INITIAL_VELOCITY', 1, r)

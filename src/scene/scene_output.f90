@@ -2,6 +2,7 @@
 !> Requests for tables, their nodes and elements.
 module scene_output
   use base_kinds, only: wp, zero
+  use base_list, only: append
   use deck_data, only: deck_t
   use deck_names, only: table_keywords, table_count, table_nodout, table_elout, table_rcforc, &
       table_rwforc, table_sleout, table_ncforc, table_spcforc
@@ -82,24 +83,22 @@ contains
     type(id_map_t), intent(in) :: map
     type(set_t), intent(in) :: sets(:)
     integer, allocatable, intent(inout) :: rows(:)
-    integer, allocatable :: more(:)
-    integer :: r, m, id, row, fields
+    integer :: r, m, n, id, row, fields
     fields = merge(1, 8, index(keyword, '_ID') > 0)
+    n = size(rows)
     r = deck%next(keyword, 1, 0)
     do while (r > 0)
-      allocate (more(0))
       do m = 1, fields
         id = nint(deck%number_at(r, m))
         if (id == 0) cycle
         row = find_or_complain(deck, map, r, 'ID'//achar(48 + m), id, what)
         if (row == 0) cycle
-        if (size(sets) == 0) more = [more, row]
-        if (size(sets) > 0) more = [more, sets(row)%member]
+        if (size(sets) == 0) call append([row], rows, n)
+        if (size(sets) > 0) call append(sets(row)%member, rows, n)
       end do
-      rows = [rows, more]
-      deallocate (more)
       r = deck%next(keyword, 1, r)
     end do
+    rows = rows(:n)
     call keep_first(rows)
   end subroutine read_history
 

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Sets of nodes, parts, elements and element edges: from cards to rows of the model.
 module scene_sets
+  use base_list, only: append
+  use base_sort, only: first_not_below
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use model_data, only: model_t, set_t, segment_set_t, segment_owner
@@ -98,21 +100,32 @@ contains
     character(*), intent(in) :: what
     type(id_map_t), intent(in) :: map
     integer, allocatable, intent(out) :: rows(:)
-    logical, allocatable :: taken(:)
-    integer :: r, m, low, high
-    allocate (taken(size(map%sorted)))
-    taken = .false.
+    integer, allocatable :: begun(:)
+    integer :: r, m, low, high, k
+    ! Ranges that have begun before each id, less those that have ended.
+    allocate (begun(size(map%sorted) + 1))
+    begun = 0
     do r = head + 1, deck%block(deck%record(head)%block)%last
       do m = 1, 4
         low = nint(deck%number_at(r, 2*m - 1))
         high = nint(deck%number_at(r, 2*m))
         if (low == 0 .and. high == 0) cycle
-        if (high < low) call deck%complain(r, 'B'//achar(48 + m)//'END', &
-            'expected a number not below '//to_text(low)//', found '//to_text(high))
-        taken = taken .or. (map%sorted >= low .and. map%sorted <= high)
+        if (high < low) then
+          call deck%complain(r, 'B'//achar(48 + m)//'END', 'expected a number not below '// &
+              to_text(low)//', found '//to_text(high))
+          cycle
+        end if
+        k = first_not_below(map%sorted, low)
+        begun(k) = begun(k) + 1
+        if (high == huge(high)) cycle
+        k = first_not_below(map%sorted, high + 1)
+        begun(k) = begun(k) - 1
       end do
     end do
-    rows = pack(map%row, taken)
+    do k = 2, size(begun)
+      begun(k) = begun(k) + begun(k - 1)
+    end do
+    rows = pack(map%row, begun(:size(map%row)) > 0)
   end subroutine read_ranges
 
   subroutine read_segment_sets(deck, model, maps, box)
@@ -120,7 +133,7 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
     type(box_t), intent(in) :: box(:)
-    integer, allocatable :: head(:), general(:), ids(:), owner(:)
+    integer, allocatable :: head(:), general(:), ids(:)
     integer :: k, r, n, lists
     call records_of(deck, 'SET_SEGMENT', 1, head)
     call records_of(deck, 'SET_SEGMENT_GENERAL', 1, general)
@@ -142,15 +155,34 @@ contains
       do r = 1, n
         call read_segment(deck, maps, head(k) + r, model%segment_set(k)%node(:, r))
       end do
-      if (deck%problems%count > 0) cycle
-      owner = segment_owner(model, model%segment_set(k)%node)
-      do r = 1, n
-        if (owner(r) == 0) call deck%complain(head(k) + r, 'N1', &
+    end do
+    if (deck%problems%count == 0) call check_segments(deck, model)
+    call make_id_map(deck, 'segment set', 'SID', ids, head, maps%segment_set)
+  end subroutine read_segment_sets
+
+  !> The segments of all sets must be exposed edges.
+  subroutine check_segments(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    integer, allocatable :: node(:), owner(:)
+    integer :: k, r, n
+    n = 0
+    do k = 1, size(model%segment_set)
+      associate (segment => model%segment_set(k)%node)
+        call append(reshape(segment, [size(segment)]), node, n)
+      end associate
+    end do
+    if (n == 0) return
+    owner = segment_owner(model, reshape(node(:n), [2, n/2]))
+    n = 0
+    do k = 1, size(model%segment_set)
+      do r = 1, size(model%segment_set(k)%node, 2)
+        n = n + 1
+        if (owner(n) == 0) call deck%complain(model%segment_set(k)%record + r, 'N1', &
             'expected two nodes of an exposed element edge')
       end do
     end do
-    call make_id_map(deck, 'segment set', 'SID', ids, head, maps%segment_set)
-  end subroutine read_segment_sets
+  end subroutine check_segments
 
   !> Rows of the two nodes of a segment (fields N1, N2; N3 and N4 must be 0 or N2).
   subroutine read_segment(deck, maps, record, node)

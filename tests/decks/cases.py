@@ -467,6 +467,11 @@ def awkward():
             "*SET_NODE_LIST\n         1\n         1         2         3         4",
             "*SET_NODE_LIST_GENERATE\n         1\n         1         2         3         9",
         ),
+        "set by ranges that overlap": base.replace(
+            "*SET_NODE_LIST\n         1\n         1         2         3         4",
+            "*SET_NODE_LIST_GENERATE\n         1\n         3         3         1         2\n"
+            "         2         4         42147483647\n         0         0",
+        ),
         "long deck with standard blocks": re.sub(
             r"(?m)^(\*(?!KEYWORD|PARAMETER|END)\w+)$", r"\1-", base
         )

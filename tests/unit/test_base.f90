@@ -7,7 +7,8 @@ program test_base
       list_files, open_text, close_text, path_length
   use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
   use base_kinds, only: wp, i4, i8
-  use base_sort, only: sort_order, sort_integers, find_sorted
+  use base_list, only: append
+  use base_sort, only: sort_order, sort_integers, find_sorted, first_not_below
   use base_status, only: status_t, fail, failed, add_place, status_text, status_deck, &
       status_file, status_ok
   use base_strings, only: edit_distance, to_text
@@ -24,6 +25,7 @@ program test_base
   call test_integers()
   call test_numbers_as_text()
   call test_sorting()
+  call test_lists()
   call test_archive()
   call test_archive_grows()
   call test_checksum()
@@ -192,6 +194,7 @@ contains
     end do
     call check_equal(wrong, 0, 'sorted lists, stable orders, items found')
     call check_equal(find_sorted([integer ::], 1), 0, 'nothing is in an empty list')
+    call check_equal(first_not_below([integer ::], 1), 1, 'after an empty list')
   end subroutine test_sorting
 
   integer function check_found(list, key) result(wrong)
@@ -202,8 +205,26 @@ contains
       p = find_sorted(list, k)
       if ((p > 0) .neqv. any(key == k)) wrong = wrong + 1
       if (p > 0) wrong = wrong + merge(0, 1, list(max(1, p)) == k)
+      if (first_not_below(list, k) /= count(key < k) + 1) wrong = wrong + 1
     end do
   end function check_found
+
+  !> Lists that grow by one and by many.
+  subroutine test_lists()
+    integer, allocatable :: list(:)
+    integer :: k, n, wrong
+    n = 0
+    call append([integer ::], list, n)
+    call check_true(n == 0 .and. allocated(list), 'nothing is added')
+    do k = 1, 1000
+      call append([k], list, n)
+    end do
+    call append([(k, k=1001, 9000)], list, n)
+    call append([9001], list, n)
+    wrong = count(list(:n) /= [(k, k=1, 9001)])
+    call check_equal(n, 9001, 'so many items')
+    call check_equal(wrong, 0, 'items of a list that grew')
+  end subroutine test_lists
 
   subroutine test_archive()
     type(archive_t) :: archive
