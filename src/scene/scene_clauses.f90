@@ -14,6 +14,17 @@ module scene_clauses
     real(wp) :: low(3) = 0.0_wp, high(3) = 0.0_wp
   end type box_t
 
+  !> The element edges that no second element has.
+  type, public :: edges_t
+    integer, allocatable :: node(:, :)   !< (2, edges) in the direction of the element
+    integer, allocatable :: owner(:)     !< element of each
+    !> The first edge that begins at a node, and the next that does at the same node; 0 = none
+    integer, allocatable :: first(:), next(:)
+  end type edges_t
+
+  !> Numbers that a clause may give.
+  integer, parameter :: most_named = 7
+
   public :: read_boxes, read_clauses, read_segment_clauses
 
 contains
@@ -41,7 +52,7 @@ contains
   end subroutine read_boxes
 
   !> Rows of the nodes (kind 'NODE') or elements ('SHELL') of a set. An element lies in a box
-  !> when its nodes do.
+  !> when its nodes do. A clause of numbers costs what they are, for there may be many.
   subroutine read_clauses(deck, model, maps, box, head, kind, rows)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -53,57 +64,64 @@ contains
     logical, allocatable :: in_set(:), named(:)
     character(:), allocatable :: option
     logical :: adds
-    integer :: r, k
+    integer :: r, k, named_row(most_named), n
     allocate (in_set(merge(model%nodes, model%elements, kind == 'NODE')))
     in_set = .false.
     do r = head + 1, deck%block(deck%record(head)%block)%last
       call split_option(deck, r, option, adds)
       select case (option)
       case ('ALL')
-        named = spread(.true., 1, size(in_set))
+        in_set = adds
       case ('NODE')
-        call mark_named(deck, maps%node, r, 'node', size(in_set), named)
+        call find_named(deck, maps%node, r, 'node', named_row, n)
+        in_set(named_row(:n)) = adds
       case ('ELEM')
-        call mark_named(deck, maps%element, r, 'element', size(in_set), named)
+        call find_named(deck, maps%element, r, 'element', named_row, n)
+        in_set(named_row(:n)) = adds
       case default
         call mark_elements(deck, model, maps, box, r, option, kind, named)
+        where (named) in_set = adds
       end select
-      where (named) in_set = adds
     end do
     rows = pack([(k, k=1, size(in_set))], in_set)
   end subroutine read_clauses
 
   !> Nodes of the exposed element edges of a set, (2, segments). An edge belongs to a part when
-  !> its element does, and lies in a box when both its nodes do.
-  subroutine read_segment_clauses(deck, model, maps, box, head, node)
+  !> its element does, and lies in a box when both its nodes do. edges are found when they are
+  !> not there yet.
+  subroutine read_segment_clauses(deck, model, maps, box, head, edges, node)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
     type(maps_t), intent(in) :: maps
     type(box_t), intent(in) :: box(:)
     integer, intent(in) :: head
+    type(edges_t), intent(inout) :: edges
     integer, allocatable, intent(out) :: node(:, :)
-    integer, allocatable :: edge(:, :), owner(:)
     logical, allocatable :: in_set(:), named(:)
     character(:), allocatable :: option
     logical :: adds
-    integer :: r
+    integer :: r, e
     if (deck%problems%count > 0) then
       allocate (node(2, 0))
       return
     end if
-    call exposed_edges(model, edge, owner)
-    allocate (in_set(size(owner)))
+    if (.not. allocated(edges%owner)) call find_exposed_edges(model, edges)
+    allocate (in_set(size(edges%owner)))
     in_set = .false.
     do r = head + 1, deck%block(deck%record(head)%block)%last
       call split_option(deck, r, option, adds)
-      if (option == 'ALL') then
-        named = spread(.true., 1, size(in_set))
-      else
-        call mark_edges(deck, model, maps, box, r, option, edge, owner, named)
-      end if
-      where (named) in_set = adds
+      select case (option)
+      case ('ALL')
+        in_set = adds
+      case ('SEG')
+        call find_segment(deck, maps, r, edges, e)
+        if (e > 0) in_set(e) = adds
+      case default
+        call mark_edges(deck, model, maps, box, r, option, edges, named)
+        where (named) in_set = adds
+      end select
     end do
-    node = reshape(pack(edge, spread(in_set, 1, 2)), [2, count(in_set)])
+    node = reshape(pack(edges%node, spread(in_set, 1, 2)), [2, count(in_set)])
     if (.not. any(in_set) .and. deck%problems%count == 0) &
         call deck%complain(head, 'SID', 'the segment set is empty')
   end subroutine read_segment_clauses
@@ -119,22 +137,35 @@ contains
     if (.not. adds) option = option(2:)
   end subroutine split_option
 
-  !> Marks the rows whose numbers stand in E1 to E7.
-  subroutine mark_named(deck, map, record, what, n, named)
+  !> The n rows whose numbers stand in E1 to E7.
+  subroutine find_named(deck, map, record, what, row, n)
     type(deck_t), intent(inout) :: deck
     type(id_map_t), intent(in) :: map
-    integer, intent(in) :: record, n
+    integer, intent(in) :: record
     character(*), intent(in) :: what
-    logical, allocatable, intent(out) :: named(:)
-    integer :: m, id, row
-    allocate (named(n))
-    named = .false.
-    do m = 2, 8
+    integer, intent(out) :: row(most_named), n
+    integer :: m, id
+    n = 0
+    do m = 2, 1 + most_named
       id = nint(deck%number_at(record, m))
       if (id == 0) cycle
-      row = find_or_complain(deck, map, record, deck%field_name(record, m), id, what)
-      if (row > 0) named(row) = .true.
+      row(n + 1) = find_or_complain(deck, map, record, deck%field_name(record, m), id, what)
+      if (row(n + 1) > 0) n = n + 1
     end do
+  end subroutine find_named
+
+  !> Marks them among `total` rows.
+  subroutine mark_named(deck, map, record, what, total, named)
+    type(deck_t), intent(inout) :: deck
+    type(id_map_t), intent(in) :: map
+    integer, intent(in) :: record, total
+    character(*), intent(in) :: what
+    logical, allocatable, intent(out) :: named(:)
+    integer :: row(most_named), n
+    allocate (named(total))
+    named = .false.
+    call find_named(deck, map, record, what, row, n)
+    named(row(:n)) = .true.
   end subroutine mark_named
 
   !> Marks nodes or elements of the parts or boxes in E1 to E7.
@@ -164,30 +195,48 @@ contains
     if (kind /= 'NODE') named = element
   end subroutine mark_elements
 
-  !> Marks exposed edges: the one between the nodes E1 and E2 (SEG), or those of parts or boxes.
-  subroutine mark_edges(deck, model, maps, box, record, option, edge, owner, named)
+  !> The exposed edge between the nodes E1 and E2; a problem and 0 if there is none.
+  subroutine find_segment(deck, maps, record, edges, e)
+    type(deck_t), intent(inout) :: deck
+    type(maps_t), intent(in) :: maps
+    integer, intent(in) :: record
+    type(edges_t), intent(in) :: edges
+    integer, intent(out) :: e
+    integer :: row(most_named), n, k
+    call find_named(deck, maps%node, record, 'node', row, n)
+    e = 0
+    if (n == 2) then
+      do k = 1, 2
+        e = edges%first(row(k))
+        do while (e > 0)
+          if (edges%node(2, e) == row(3 - k)) return
+          e = edges%next(e)
+        end do
+      end do
+    end if
+    call deck%complain(record, 'E1', &
+        'expected the two nodes of one exposed element edge in E1 and E2')
+  end subroutine find_segment
+
+  !> Marks exposed edges of the parts or boxes in E1 to E7.
+  subroutine mark_edges(deck, model, maps, box, record, option, edges, named)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
     type(maps_t), intent(in) :: maps
     type(box_t), intent(in) :: box(:)
-    integer, intent(in) :: record, edge(:, :), owner(:)
+    integer, intent(in) :: record
     character(*), intent(in) :: option
+    type(edges_t), intent(in) :: edges
     logical, allocatable, intent(out) :: named(:)
     logical, allocatable :: node(:), group(:)
-    select case (option)
-    case ('PART')
+    if (option == 'PART') then
       call mark_named(deck, maps%part, record, 'part', size(model%part), group)
-      named = group(model%element_part(owner))
-    case ('BOX')
+      named = group(model%element_part(edges%owner))
+    else
       call mark_named(deck, maps%box, record, 'box', size(box), group)
       node = in_boxes(model, pack(box, group))
-      named = node(edge(1, :)) .and. node(edge(2, :))
-    case default
-      call mark_named(deck, maps%node, record, 'node', model%nodes, node)
-      named = node(edge(1, :)) .and. node(edge(2, :))
-      if (count(node) /= 2 .or. count(named) /= 1) call deck%complain(record, 'E1', &
-          'expected the two nodes of one exposed element edge in E1 and E2')
-    end select
+      named = node(edges%node(1, :)) .and. node(edges%node(2, :))
+    end if
   end subroutine mark_edges
 
   pure function in_boxes(model, box) result(is_in)
@@ -205,11 +254,10 @@ contains
     end do
   end function in_boxes
 
-  !> All element edges that no second element has: their nodes, (2, edges), in the direction of
-  !> the element, and the element of each.
-  subroutine exposed_edges(model, edge, owner)
+  subroutine find_exposed_edges(model, edges)
     type(model_t), intent(in) :: model
-    integer, allocatable, intent(out) :: edge(:, :), owner(:)
+    type(edges_t), intent(out) :: edges
+    integer, allocatable :: edge(:, :), owner(:)
     integer :: e, k, n, c
     allocate (edge(2, 4*model%elements))
     n = 0
@@ -222,8 +270,14 @@ contains
     end do
     edge = edge(:, 1:n)
     owner = segment_owner(model, edge)
-    edge = reshape(pack(edge, spread(owner /= 0, 1, 2)), [2, count(owner /= 0)])
-    owner = abs(pack(owner, owner /= 0))
-  end subroutine exposed_edges
+    edges%node = reshape(pack(edge, spread(owner /= 0, 1, 2)), [2, count(owner /= 0)])
+    edges%owner = abs(pack(owner, owner /= 0))
+    allocate (edges%first(model%nodes), edges%next(size(edges%owner)))
+    edges%first = 0
+    do e = 1, size(edges%owner)
+      edges%next(e) = edges%first(edges%node(1, e))
+      edges%first(edges%node(1, e)) = e
+    end do
+  end subroutine find_exposed_edges
 
 end module scene_clauses

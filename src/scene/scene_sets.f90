@@ -6,7 +6,7 @@ module scene_sets
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use model_data, only: model_t, set_t, segment_set_t, segment_owner
-  use scene_clauses, only: box_t, read_boxes, read_clauses, read_segment_clauses
+  use scene_clauses, only: box_t, edges_t, read_boxes, read_clauses, read_segment_clauses
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -133,6 +133,7 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
     type(box_t), intent(in) :: box(:)
+    type(edges_t) :: edges
     integer, allocatable :: head(:), general(:), ids(:)
     integer :: k, r, n, lists
     call records_of(deck, 'SET_SEGMENT', 1, head)
@@ -145,7 +146,8 @@ contains
       if (k > lists) then
         model%segment_set(k)%id = ids(k)
         model%segment_set(k)%record = head(k)
-        call read_segment_clauses(deck, model, maps, box, head(k), model%segment_set(k)%node)
+        call read_segment_clauses(deck, model, maps, box, head(k), edges, &
+            model%segment_set(k)%node)
         cycle
       end if
       n = deck%block(deck%record(head(k))%block)%last - head(k)

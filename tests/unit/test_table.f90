@@ -5,7 +5,7 @@ program test_table
   use base_kinds, only: wp
   use base_strings, only: to_text
   use check, only: test_start, test_end, check_true, check_equal, check_close
-  use deck_keywords, only: fill_table
+  use deck_keywords, only: fill_table, complete_table
   use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field, find_keyword, &
       family_of, field_fixed
   implicit none
@@ -86,6 +86,7 @@ contains
     type(table_t) :: table
     integer :: k, c, f, wrong
     call fill_table(table)
+    call complete_table(table)
     wrong = 0
     do k = 1, table%n
       associate (keyword => table%keyword(k))
