@@ -38,8 +38,8 @@ contains
     graph%n = w%contacts
     graph%first = w%first
     graph%column = w%column
+    allocate (work%order(w%contacts), work%place(w%contacts))
     call reverse_cuthill_mckee(graph, [(a, a=1, w%contacts)], [integer ::], work%order)
-    allocate (work%place(w%contacts))
     work%place(work%order) = [(a, a=1, w%contacts)]
     band = 0
     do a = 1, w%contacts

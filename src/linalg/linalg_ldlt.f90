@@ -8,8 +8,9 @@ module linalg_ldlt
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_dense, only: dense_factor
-  use linalg_order, only: choose_order, symbolic_factor
+  use linalg_order, only: choose_order
   use linalg_solver, only: solver_t
+  use linalg_symbolic, only: symbolic_factor
   implicit none
   private
 

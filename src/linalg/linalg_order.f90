@@ -6,9 +6,10 @@ module linalg_order
   use base_sort, only: sort_order
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
   use linalg_graph, only: graph_t
+  use linalg_symbolic, only: count_factor
   implicit none
   private
-  public :: choose_order, count_factor, symbolic_factor, reverse_cuthill_mckee
+  public :: choose_order, reverse_cuthill_mckee
 
   !> Below this many multiplications METIS is not asked: its own run would cost more than it
   !> saves.
@@ -43,36 +44,29 @@ contains
     character(7), parameter :: names(3) = ['NATURAL', 'RCM    ', 'METIS  ']
     integer, allocatable :: trial(:), leading(:)
     integer(i8) :: cost
-    integer :: k
+    integer :: k, n
     flops = huge(flops)
     chosen = ''
     call leading_nodes(graph%n, last, leading)
+    n = size(leading)
     do k = 1, 3
       if (wanted /= 'AUTO' .and. wanted /= names(k)) cycle
       if (wanted == 'AUTO' .and. k == 3 .and. flops < metis_threshold) exit
-      call one_order(graph, leading, last, trim(names(k)), trial, status)
+      allocate (trial(graph%n))
+      call one_order(graph, leading, last, trim(names(k)), trial(:n), status)
       if (failed(status)) return
-      call append(last, trial)
-      cost = count_factor(graph, trial, size(leading))
-      if (cost >= flops) cycle
-      flops = cost
-      call move_alloc(trial, order)
-      chosen = trim(names(k))
+      trial(n + 1:) = last
+      cost = count_factor(graph, trial, n)
+      if (cost < flops) then
+        flops = cost
+        call move_alloc(trial, order)
+        chosen = trim(names(k))
+      else
+        deallocate (trial)
+      end if
     end do
     if (.not. allocated(order)) call fail(status, status_deck, 'unknown order "'//wanted//'"')
   end subroutine choose_order
-
-  !> Adds more to the end of a list. By ALLOCATE, which tells where memory ends; an assignment
-  !> that makes room does not.
-  pure subroutine append(more, list)
-    integer, intent(in) :: more(:)
-    integer, allocatable, intent(inout) :: list(:)
-    integer, allocatable :: longer(:)
-    allocate (longer(size(list) + size(more)))
-    longer(:size(list)) = list
-    longer(size(list) + 1:) = more
-    call move_alloc(longer, list)
-  end subroutine append
 
   !> All nodes that are not in `last`.
   pure subroutine leading_nodes(n, last, leading)
@@ -97,7 +91,7 @@ contains
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: nodes(:), last(:)
     character(*), intent(in) :: name
-    integer, allocatable, intent(out) :: order(:)
+    integer, intent(out) :: order(:)
     type(status_t), intent(inout) :: status
     select case (name)
     case ('RCM')
@@ -105,7 +99,6 @@ contains
     case ('METIS')
       call metis_order(graph, nodes, order, status)
     case default
-      allocate (order(size(nodes)))
       order = nodes
     end select
   end subroutine one_order
@@ -116,12 +109,12 @@ contains
   pure subroutine reverse_cuthill_mckee(graph, nodes, last, order)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: nodes(:), last(:)
-    integer, allocatable, intent(out) :: order(:)
+    integer, intent(out) :: order(:)
     integer, allocatable :: by_degree(:), degree(:)
     logical, allocatable :: free(:)
     integer :: n, head, tail, start, k
     n = size(nodes)
-    allocate (order(n), by_degree(n), free(graph%n))
+    allocate (by_degree(n), free(graph%n))
     free = .false.
     free(nodes) = .true.
     allocate (degree(n))
@@ -177,7 +170,7 @@ contains
   subroutine metis_order(graph, nodes, order, status)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: nodes(:)
-    integer, allocatable, intent(out) :: order(:)
+    integer, intent(out) :: order(:)
     type(status_t), intent(inout) :: status
     integer(c_int), allocatable :: xadj(:), adjncy(:), perm(:), iperm(:)
     integer, allocatable :: local(:)
@@ -209,48 +202,5 @@ contains
         hint='choose ORDER RCM on *BIPACT_SOLVER')
     order = nodes(perm + 1)
   end subroutine metis_order
-
-  !> Elimination tree and the number of rows below each pivot (Liu 1990; Davis 2005): row k of
-  !> the factor holds the nodes met on the paths from its entries in A up the tree. The nodes
-  !> after `leading` are not eliminated: they end a path.
-  pure subroutine symbolic_factor(graph, order, leading, parent, rows)
-    type(graph_t), intent(in) :: graph
-    integer, intent(in) :: order(:)
-    integer, intent(in) :: leading
-    integer, intent(out) :: parent(:)
-    integer, intent(out) :: rows(:)
-    integer, allocatable :: new(:), mark(:)
-    integer :: k, m, i
-    allocate (new(graph%n), mark(graph%n))
-    new(order) = [(k, k=1, graph%n)]
-    parent = 0
-    mark = 0
-    rows = 0
-    do k = 1, graph%n
-      mark(k) = k
-      do m = graph%first(order(k)), graph%first(order(k) + 1) - 1
-        i = new(graph%column(m))
-        do while (i < k .and. i <= leading)
-          if (mark(i) == k) exit
-          if (parent(i) == 0) parent(i) = k
-          rows(i) = rows(i) + 1
-          mark(i) = k
-          i = parent(i)
-        end do
-      end do
-    end do
-  end subroutine symbolic_factor
-
-  !> Multiplications of 2 x 2 blocks that the factor of an order costs: half the sum of the
-  !> squares of its column lengths, and the pivots.
-  pure integer(i8) function count_factor(graph, order, leading)
-    type(graph_t), intent(in) :: graph
-    integer, intent(in) :: order(:)
-    integer, intent(in) :: leading
-    integer, allocatable :: parent(:), rows(:)
-    allocate (parent(graph%n), rows(graph%n))
-    call symbolic_factor(graph, order, leading, parent, rows)
-    count_factor = sum(int(rows(1:leading), i8)*int(rows(1:leading) + 3, i8)/2_i8)
-  end function count_factor
 
 end module linalg_order
