@@ -2,6 +2,7 @@
 !> The contact solver: one entry for every kind of W. Every answer is certified.
 module cone_solver
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_numerical
   use cone_blocks, only: delassus_blocks_t
@@ -14,7 +15,8 @@ module cone_solver
   use cone_local, only: tangent_length
   use cone_products_solver, only: solve_by_products
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, size_cone_work, &
-      contact_open, contact_stick, contact_slip, local_exact, largest_ordinary, large_friction
+      contact_open, contact_stick, contact_slip, local_exact, largest_ordinary, &
+      large_friction, most_components
   implicit none
   private
   public :: solve_cone
@@ -40,6 +42,7 @@ contains
     type(certificate_t), intent(out) :: certificate
     type(status_t), intent(inout) :: status
     real(wp) :: m
+    if (checks_on) call check_problem(options, delassus, q, mu, r)
     call size_cone_work(work, size(q, 1), size(q, 2))
     if (.not. options%warm_start) r = zero
     work%status = contact_open
@@ -57,6 +60,28 @@ contains
     end if
     call count_wedging(delassus, mu, r, certificate)
   end subroutine solve_cone
+
+  !> Assertions on what the solver is given: shapes, friction that is a number, options that
+  !> can end. q and W may hold anything: that is a failure with a status.
+  subroutine check_problem(options, delassus, q, mu, r)
+    type(cone_options_t), intent(in) :: options
+    class(delassus_t), intent(in) :: delassus
+    real(wp), intent(in) :: q(:, :), mu(:), r(:, :)
+    character(*), parameter :: place = 'solve_cone'
+    call assert(size(q, 1) >= 1 .and. size(q, 1) <= most_components, place, &
+        'a contact has 1 to 3 components')
+    call assert_shape([delassus%d, delassus%contacts], shape(q), place, 'W in contacts')
+    call assert_shape(shape(r), shape(q), place, 'r')
+    call assert_shape(shape(mu), [size(q, 2)], place, 'mu')
+    call assert(all(ieee_is_finite(mu)) .and. all(mu >= zero), place, &
+        'every mu is finite and not negative')
+    call assert(options%tolerance > zero .and. options%max_sweeps > 0, place, &
+        'the tolerance and the number of sweeps are positive')
+    select type (delassus)
+    type is (delassus_dense_t)
+      call assert_shape(shape(delassus%matrix), [size(q), size(q)], place, 'W%matrix')
+    end select
+  end subroutine check_problem
 
   !> By what is known of W; all numbers are ordinary.
   subroutine solve_kind(options, delassus, q, mu, m, r, work, certificate, status)

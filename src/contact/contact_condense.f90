@@ -3,6 +3,8 @@
 !> complement of the effective matrix on the interface nodes (they come last in the
 !> elimination).
 module contact_condense
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero, one
   use contact_rows, only: rows_t, row_of_h
   use contact_types, only: contact_t
@@ -55,6 +57,7 @@ contains
     type(contact_t), intent(inout) :: contact
     integer :: a, k
     if (contact%w_is_current) return
+    if (checks_on) call check_rows(contact)
     contact%tally%w_builds = contact%tally%w_builds + 1
     contact%w_is_current = .true.
     associate (rows => contact%rows)
@@ -70,6 +73,24 @@ contains
     end associate
     call fill_w(contact)
   end subroutine build_w
+
+  !> Assertions on what W is made of: S^-1 of the interface as it is, rows on it alone.
+  subroutine check_rows(contact)
+    type(contact_t), intent(in) :: contact
+    character(*), parameter :: place = 'build_w'
+    integer :: points, m
+    m = size(contact%interface_node)
+    associate (rows => contact%rows)
+      points = rows%first(rows%n + 1) - 1
+      call assert_shape(shape(contact%schur_inverse), [2*m, 2*m], place, &
+          'contact%schur_inverse')
+      call assert(all(rows%slot(:points) >= 1 .and. rows%slot(:points) <= m), place, &
+          'every point of a row is an interface node')
+      call assert(all(ieee_is_finite(rows%weight(:points))) .and. &
+          all(ieee_is_finite(rows%normal(:, :rows%n))), place, &
+          'weights and normals are finite')
+    end associate
+  end subroutine check_rows
 
   !> Rows whose normal flexibility n' S^-1 n is zero to round-off.
   pure subroutine mark_rigid(schur_inverse, rows)

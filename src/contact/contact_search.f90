@@ -2,6 +2,8 @@
 !> When to search. A search lists what is near and measures the distance of all else; while
 !> the bodies have moved less than that relative to each other, no search is due.
 module contact_search
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
   use contact_condense, only: make_interface
@@ -32,6 +34,7 @@ contains
     type(status_t), intent(inout) :: status
     logical :: searched, is_due, acts
     integer :: p
+    if (checks_on) call check_motion(model, u, du, v, 'update_lists')
     new_interface = .false.
     searched = .false.
     do p = 1, size(contact%pairing)
@@ -49,6 +52,17 @@ contains
     end do
     if (searched) call use_lists(model, contact, new_interface)
   end subroutine update_lists
+
+  !> Assertions on the state that contact starts from: (2, nodes) each, displacements finite.
+  subroutine check_motion(model, u, du, v, place)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: u(:, :), du(:, :), v(:, :)
+    character(*), intent(in) :: place
+    call assert_shape(shape(u), [2, model%nodes], place, 'u')
+    call assert_shape(shape(du), [2, model%nodes], place, 'du')
+    call assert_shape(shape(v), [2, model%nodes], place, 'v')
+    call assert(all(ieee_is_finite(u)), place, 'displacements are finite')
+  end subroutine check_motion
 
   !> Lists pairing p anew at displacement u, and checks its bodies as a whole.
   subroutine search(model, contact, p, u, reach, cycle, status)
@@ -161,6 +175,7 @@ contains
     type(status_t), intent(inout) :: status
     real(wp) :: moved
     integer :: p
+    if (checks_on) call check_motion(model, u, x, v, 'relist_outrun')
     again = .false.
     new_interface = .false.
     do p = 1, size(contact%pairing)

@@ -2,6 +2,7 @@
 !> Contact of one stage of a step, for every scheme: from the free motion of the interface to
 !> the reactions. It does not know the scheme: the stage has said what the motion means.
 module contact_stage
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero, half, one
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_strings, only: to_text
@@ -37,6 +38,7 @@ contains
     type(status_t), intent(inout) :: status
     integer :: round
     logical :: is_complete
+    if (checks_on) call check_interface(contact, u, x_free, force, 'solve_contact')
     force = zero
     acting = .false.
     contact%idle_steps = 0
@@ -53,6 +55,19 @@ contains
     end do
     if (acting) call count_rows(contact)
   end subroutine solve_contact
+
+  !> Assertions on the vectors of a stage: whole (2, nodes), and two of the interface (2, m).
+  subroutine check_interface(contact, whole, first, second, place)
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: whole(:, :), first(:, :), second(:, :)
+    character(*), intent(in) :: place
+    integer :: m
+    m = size(contact%interface_node)
+    call assert_shape(shape(whole), [2, size(contact%slot)], place, 'the motion of all nodes')
+    call assert_shape(shape(first), [2, m], place, 'the first vector of the interface')
+    call assert_shape(shape(second), [2, m], place, 'the second vector of the interface')
+    call assert(count(contact%slot > 0) == m, place, 'every interface node has a slot')
+  end subroutine check_interface
 
   !> The rows as they are: W, q, reactions; again with smaller offsets where a purse is short.
   subroutine solve_rows(model, contact, x_free, largest, round, force, acting, status)
@@ -199,6 +214,7 @@ contains
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
     integer :: k
+    if (checks_on) call check_interface(contact, du, force, more, 'correct_contact')
     done = .true.
     ! Rows of an earlier list, where nothing is listed now.
     if (contact%n == 0 .or. .not. contact%w_is_current) return
@@ -268,6 +284,7 @@ contains
     type(certificate_t) :: certificate
     real(wp) :: depth
     integer :: a, k
+    if (checks_on) call assert_shape(shape(du), shape(u), 'settle_contact', 'du')
     call find_displacements(contact, du)
     associate (rows => contact%rows)
       do a = 1, rows%n

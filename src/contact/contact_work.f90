@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What contact did in a step: forces on the sides, impulses, works.
 module contact_work
+  use base_checks, only: checks_on, assert_shape
   use base_kinds, only: wp, zero
   use cone_certificate, only: bipotential_residual
   use cone_types, only: certificate_t, contact_open, contact_stick
@@ -31,6 +32,8 @@ contains
     real(wp), intent(in), contiguous :: du(:, :)
     type(contact_work_t), intent(inout) :: work
     integer :: a, p
+    if (checks_on) call assert_shape(shape(du), [2, size(contact%slot)], 'add_contact_step', &
+        'du')
     contact%idle_steps = min(2, contact%idle_steps + 1)
     do p = 1, size(contact%pairing)
       associate (pairing => contact%pairing(p)%item)

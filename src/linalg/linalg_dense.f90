@@ -3,6 +3,7 @@
 !> A block is scaled by a power of two before the square roots of Cholesky, so that a change of
 !> units by powers of two changes no digit.
 module linalg_dense
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
@@ -69,6 +70,8 @@ contains
     real(wp) :: largest
     integer :: j, info
     block%n = size(block%l, 1)
+    if (checks_on) call assert_shape(shape(block%l), [block%n, block%n], 'dense_factor', &
+        'block%l')
     if (block%n == 0) return
     largest = zero
     do j = 1, block%n
@@ -89,6 +92,8 @@ contains
     integer, intent(in) :: n
     real(wp), intent(inout) :: b(n)
     integer :: info
+    if (checks_on) call assert(n == block%n, 'dense_solve', 'b has as many entries as the'// &
+        ' matrix has rows')
     call dpotrs('L', n, 1, block%l, n, b, n, info)
     b = b/block%scale
   end subroutine dense_solve
@@ -99,6 +104,8 @@ contains
     real(wp), intent(out) :: inverse(:, :)
     real(wp), allocatable :: work(:, :)
     integer :: j, info
+    if (checks_on) call assert_shape(shape(inverse), [block%n, block%n], 'dense_inverse', &
+        'inverse')
     allocate (work(block%n, block%n))
     work = block%l
     call dpotri('L', block%n, work, block%n, info)
@@ -117,6 +124,8 @@ contains
     integer, intent(inout) :: pivot(:)
     logical, intent(out) :: ok
     integer :: info
+    if (checks_on) call assert(min(size(a, 1), size(a, 2), size(b, 1), size(pivot)) >= n, &
+        'solve_general', 'a, b and pivot hold n rows')
     call dgesv(n, size(b, 2), a, size(a, 1), pivot, b, size(b, 1), info)
     ok = info == 0
   end subroutine solve_general
@@ -130,6 +139,9 @@ contains
     integer, intent(inout) :: pivot(:)
     logical, intent(out) :: ok
     integer :: info
+    if (checks_on) call assert(min(size(a, 2), size(b, 1), size(pivot)) >= n .and. &
+        size(a, 1) > 3*width, 'solve_banded', 'a holds 3 width + 1 diagonals of n entries, '// &
+        'b and pivot n rows')
     call dgbsv(n, width, width, size(b, 2), a, size(a, 1), pivot, b, size(b, 1), info)
     ok = info == 0
   end subroutine solve_banded

@@ -3,13 +3,14 @@
 !> 2005), for symmetric positive definite A; the last nodes stay as a dense Schur complement.
 !> Node blocks need one index per four reals and no square root.
 module linalg_ldlt
+  use base_checks, only: checks_on
   use base_kinds, only: wp, i8, zero
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_dense, only: dense_factor
   use linalg_order, only: choose_order
-  use linalg_solver, only: solver_t
+  use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
   use linalg_symbolic, only: symbolic_factor
   implicit none
   private
@@ -40,6 +41,7 @@ contains
     type(status_t), intent(inout) :: status
     integer, allocatable :: rows(:)
     integer :: k
+    if (checks_on) call check_graph(graph, last, 'ldlt_analyse')
     this%n = graph%n
     this%n_last = size(last)
     this%leading = graph%n - size(last)
@@ -74,6 +76,7 @@ contains
     real(wp), allocatable :: y(:, :, :)
     integer, allocatable :: filled(:), mark(:), path(:), reach(:)
     integer :: k, top
+    if (checks_on) call check_matrix(this, graph, matrix, 'ldlt_factor')
     allocate (y(2, 2, this%n), filled(this%leading), mark(this%n), path(this%n), reach(this%n))
     y = zero
     filled = this%first(1:this%leading) - 1
@@ -216,6 +219,7 @@ contains
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: b_last(:, :)
     integer :: k
+    if (checks_on) call check_vectors(this, b, b_last, 'ldlt_forward')
     do k = 1, this%n
       this%work(1, k) = b(1, this%order(k))
       this%work(2, k) = b(2, this%order(k))
@@ -252,6 +256,7 @@ contains
     real(wp), intent(in) :: x_last(:, :)
     real(wp), intent(out) :: x(:, :)
     integer :: k
+    if (checks_on) call check_vectors(this, x, x_last, 'ldlt_backward')
     this%work(:, this%leading + 1:this%n) = x_last
     call backward_blocks(this%leading, this%n, this%first, this%row, this%l, this%work)
     do k = 1, this%n

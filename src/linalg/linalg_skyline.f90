@@ -3,13 +3,14 @@
 !> Bathe & Wilson 1976): a small engine, and the oracle for the sparse one. The last nodes stay
 !> as a dense Schur complement, as everywhere.
 module linalg_skyline
+  use base_checks, only: checks_on
   use base_kinds, only: wp, i8, zero
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_dense, only: dense_factor
   use linalg_order, only: choose_order
-  use linalg_solver, only: solver_t
+  use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
   implicit none
   private
 
@@ -41,6 +42,7 @@ contains
     integer :: k, m, low
     wanted = trim(this%options%order)
     if (wanted == 'AUTO') wanted = 'RCM'
+    if (checks_on) call check_graph(graph, last, 'skyline_analyse')
     this%n = graph%n
     this%n_last = size(last)
     this%leading = 2*(graph%n - size(last))
@@ -75,6 +77,7 @@ contains
     type(block_matrix_t), intent(in) :: matrix
     type(status_t), intent(inout) :: status
     integer :: k, m, i, r, row, column
+    if (checks_on) call check_matrix(this, graph, matrix, 'skyline_factor')
     this%l = zero
     do k = 1, this%n
       do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
@@ -147,6 +150,7 @@ contains
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: b_last(:, :)
     integer :: k, row, top
+    if (checks_on) call check_vectors(this, b, b_last, 'skyline_forward')
     do k = 1, this%n
       this%work(2*k - 1:2*k) = b(:, this%order(k))
     end do
@@ -165,6 +169,7 @@ contains
     real(wp), intent(in) :: x_last(:, :)
     real(wp), intent(out) :: x(:, :)
     integer :: k, row, top
+    if (checks_on) call check_vectors(this, x, x_last, 'skyline_backward')
     this%work(this%leading + 1:) = reshape(x_last, [2*this%n_last])
     do row = 2*this%n, 1, -1
       top = min(row - 1, this%leading)

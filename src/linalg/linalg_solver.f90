@@ -6,6 +6,7 @@
 !> iterations happen there; backward gives the rest of x. Vectors are (2, n) in node order,
 !> those of the block (2, m) in the order of `last`.
 module linalg_solver
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, i8
   use base_status, only: status_t
   use linalg_graph, only: graph_t, block_matrix_t
@@ -79,7 +80,7 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole
+  public :: solve_whole, check_graph, check_matrix, check_vectors
 
 contains
 
@@ -87,6 +88,7 @@ contains
   subroutine solve_last(this, x_last)
     class(solver_t), intent(in) :: this
     real(wp), intent(inout) :: x_last(:, :)
+    if (checks_on) call assert_shape(shape(x_last), [2, this%n_last], 'solve_last', 'x_last')
     if (this%n_last > 0) call dense_solve(this%block, 2*this%n_last, x_last)
   end subroutine solve_last
 
@@ -94,6 +96,7 @@ contains
   subroutine flexibility(this, f)
     class(solver_t), intent(in) :: this
     real(wp), intent(out) :: f(:, :)
+    if (checks_on) call assert_shape(shape(f), [2, 2]*this%n_last, 'flexibility', 'f')
     if (this%n_last > 0) call dense_inverse(this%block, f)
   end subroutine flexibility
 
@@ -107,5 +110,51 @@ contains
     call solver%solve_last(x_last)
     call solver%backward(x_last, x)
   end subroutine solve_whole
+
+  !> Assertions on what an engine is given to analyse: rows of the graph without gaps, and nodes
+  !> of it as `last`, each once. place: the procedure that asks.
+  subroutine check_graph(graph, last, place)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: last(:)
+    character(*), intent(in) :: place
+    logical :: is_last(graph%n)
+    integer :: k
+    if (.not. checks_on) return
+    call assert_shape(shape(graph%first), [graph%n + 1], place, 'graph%first')
+    call assert_shape(shape(graph%column), [graph%first(graph%n + 1) - 1], place, &
+        'graph%column')
+    call assert(all(graph%column >= 1 .and. graph%column <= graph%n), place, &
+        'every neighbour is a node of the graph')
+    call assert(all(last >= 1 .and. last <= graph%n), place, &
+        'every one of `last` is a node of the graph')
+    is_last = .false.
+    do k = 1, size(last)
+      call assert(.not. is_last(last(k)), place, 'no node is twice in `last`')
+      is_last(last(k)) = .true.
+    end do
+  end subroutine check_graph
+
+  !> Assertions on what an engine is given to factor: the graph it has analysed, and a block for
+  !> each of its entries.
+  subroutine check_matrix(solver, graph, matrix, place)
+    class(solver_t), intent(in) :: solver
+    type(graph_t), intent(in) :: graph
+    type(block_matrix_t), intent(in) :: matrix
+    character(*), intent(in) :: place
+    if (.not. checks_on) return
+    call assert(graph%n == solver%n, place, 'the graph is the one that was analysed')
+    call assert_shape(shape(matrix%value), [2, 2, size(graph%column)], place, 'matrix%value')
+  end subroutine check_matrix
+
+  !> Assertions on the vectors of a forward or backward pass: (2, n) of all nodes, (2, n_last)
+  !> of the last.
+  subroutine check_vectors(solver, whole, block, place)
+    class(solver_t), intent(in) :: solver
+    real(wp), intent(in) :: whole(:, :), block(:, :)
+    character(*), intent(in) :: place
+    if (.not. checks_on) return
+    call assert_shape(shape(whole), [2, solver%n], place, 'the vector of all nodes')
+    call assert_shape(shape(block), [2, solver%n_last], place, 'the vector of the last nodes')
+  end subroutine check_vectors
 
 end module linalg_solver
