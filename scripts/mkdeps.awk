@@ -15,7 +15,7 @@ BEGIN {
   only["cone"] = " base linalg "        # the contact solver is usable without the rest
   only["hdf5"] = " base "
   only["fclib"] = " base linalg cone hdf5 "  # its program reads files of contact problems
-  only["deck"] = " base "               # the reader knows no mechanics
+  only["deck"] = " base linalg cone "   # the reader knows solvers by name, and no mechanics
   never["contact"] = " material element "
 
   main["src/run/main.f90"]

@@ -5,7 +5,7 @@ module base_strings
   implicit none
   private
   public :: upper, to_text, join_path, folder_of, stem_of, edit_distance, &
-      position_of
+      position_of, join
 
   !> Numbers as text for messages and logs.
   interface to_text
@@ -116,6 +116,18 @@ contains
       path = folder//'/'//name
     end if
   end function join_path
+
+  !> Words, without their trailing blanks, with a separator between them.
+  pure function join(words, separator) result(text)
+    character(*), intent(in) :: words(:), separator
+    character(:), allocatable :: text
+    integer :: k
+    text = ''
+    do k = 1, size(words)
+      if (k > 1) text = text//separator
+      text = text//trim(words(k))
+    end do
+  end function join
 
   !> The folder of a path, without the last slash; empty for a bare file name.
   pure function folder_of(path) result(folder)

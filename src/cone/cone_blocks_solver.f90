@@ -14,7 +14,7 @@ module cone_blocks_solver
   use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, evaluate_error
   use cone_strategy, only: strategy_t, choose_method, after_failed_newton
   use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work, &
-      most_pivoted, late
+      most_pivoted, solver_newton, solver_prox, late
   implicit none
   private
   public :: solve_blocks
@@ -80,9 +80,9 @@ contains
     type(scaled_t), intent(inout) :: p
     type(certificate_t), intent(inout) :: certificate
     type(strategy_t) :: strategy
-    if (options%solver == 'PROX' .or. options%solver == 'NEWTON') then
+    if (options%solver == solver_prox .or. options%solver == solver_newton) then
       call evaluate_error(p, options%tolerance, certificate)
-      call proximal_newton(options, p, options%solver == 'NEWTON', most_loops, certificate)
+      call proximal_newton(options, p, options%solver == solver_newton, most_loops, certificate)
       if (certificate%met) return
     end if
     do while (certificate%sweeps < options%max_sweeps)

@@ -12,7 +12,7 @@ module cone_dense_solver
   use cone_dense, only: delassus_dense_t
   use cone_sweep, only: find_rho, sweep_contacts
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open, &
-      contact_slip, most_pivoted
+      contact_slip, most_pivoted, solver_auto, solver_gs
   implicit none
   private
   public :: solve_dense
@@ -41,7 +41,7 @@ contains
     type(status_t), intent(inout) :: status
     real(wp) :: change
     integer :: sweep
-    if (options%solver /= 'AUTO' .and. options%solver /= 'GS') then
+    if (options%solver /= solver_auto .and. options%solver /= solver_gs) then
       call solve_by_blocks(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end if
@@ -54,10 +54,10 @@ contains
           certificate%local_iterations)
       certificate%sweeps = sweep
       call evaluate_certificate(m, mu, q, r, work%u, options%tolerance, certificate)
-      if (options%solver /= 'GS' .and. active_set_is_due(sweep, work)) &
+      if (options%solver /= solver_gs .and. active_set_is_due(sweep, work)) &
           call try_active_set(options%tolerance, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
-      if (sweep == patience .and. options%solver /= 'GS') &
+      if (sweep == patience .and. options%solver /= solver_gs) &
           call fallback(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end do

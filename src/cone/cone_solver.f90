@@ -16,7 +16,7 @@ module cone_solver
   use cone_products_solver, only: solve_by_products
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, size_cone_work, &
       contact_open, contact_stick, contact_slip, local_exact, largest_ordinary, &
-      large_friction, most_components
+      large_friction, most_components, solver_products
   implicit none
   private
   public :: solve_cone
@@ -93,7 +93,7 @@ contains
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
     type(status_t), intent(inout) :: status
-    if (options%solver /= 'PRODUCTS') then
+    if (options%solver /= solver_products) then
       select type (delassus)
       type is (delassus_dense_t)
         call solve_dense(options, delassus, q, mu, m, r, work, certificate, status)

@@ -6,7 +6,8 @@ module cone_strategy
   use cone_newton, only: plan_newton
   use cone_scaled, only: scaled_t, start_method, chunk, plain_sweeps, anderson_sweeps, &
       momentum_steps
-  use cone_types, only: cone_options_t, certificate_t
+  use cone_types, only: cone_options_t, certificate_t, solver_anderson, solver_gs, &
+      solver_nesterov
   implicit none
   private
   public :: choose_method, after_failed_newton
@@ -44,17 +45,17 @@ contains
     strategy%newton_due = .false.
     strategy%best = min(strategy%best, certificate%error)
     if (certificate%sweeps <= patience) strategy%start = certificate%error
-    if (options%solver == 'GS') return
+    if (options%solver == solver_gs) return
     if (certificate%sweeps == patience) call start_method(p, &
-        merge(momentum_steps, anderson_sweeps, options%solver == 'NESTEROV'))
-    if (options%solver == 'NESTEROV' .or. certificate%sweeps < strategy%wait) return
+        merge(momentum_steps, anderson_sweeps, options%solver == solver_nesterov))
+    if (options%solver == solver_nesterov .or. certificate%sweeps < strategy%wait) return
     if (certificate%sweeps >= strategy%mark + span) then
       strategy%stalled = certificate%error > half*strategy%marked
       strategy%marked = certificate%error
       strategy%mark = certificate%sweeps
       if (strategy%stalled) call start_method(p, other_method(options, p%method))
     end if
-    if (options%solver == 'ANDERSON' .or. certificate%sweeps < 2*chunk) return
+    if (options%solver == solver_anderson .or. certificate%sweeps < 2*chunk) return
     call plan_newton(p%w, p%newton)
     strategy%newton_due = newton_pays(options, p, certificate, strategy)
     strategy%proximal_due = strategy%newtons > 0 .or. newton_cost(p) <= cheap
@@ -80,7 +81,7 @@ contains
     integer, intent(in) :: method
     other_method = anderson_sweeps
     if (method == anderson_sweeps) &
-        other_method = merge(plain_sweeps, momentum_steps, options%solver == 'ANDERSON')
+        other_method = merge(plain_sweeps, momentum_steps, options%solver == solver_anderson)
   end function other_method
 
   pure real(wp) function newton_cost(p)

@@ -16,14 +16,21 @@ module cone_types
   real(wp), parameter, public :: largest_ordinary = 2.0_wp**200
   !> Friction beyond which mu times the round-off of a displacement is no small number.
   real(wp), parameter, public :: large_friction = 1.0e7_wp
+  !> Solvers and their names. AUTO: the rule of cone_strategy; GS: sweeps alone; PROX, NEWTON:
+  !> these before any sweep; ANDERSON, NESTEROV: accelerated sweeps, steps with momentum alone;
+  !> PRODUCTS: products with W alone. A deck may choose among the first four.
+  integer, parameter, public :: solver_auto = 1, solver_gs = 2, solver_prox = 3, &
+      solver_newton = 4, solver_anderson = 5, solver_nesterov = 6, solver_products = 7
+  character(8), parameter, public :: solver_names(7) = [character(8) :: 'AUTO', 'GS', 'PROX', &
+      'NEWTON', 'ANDERSON', 'NESTEROV', 'PRODUCTS']
+  character(8), parameter, public :: deck_solver_names(4) = solver_names(:solver_newton)
   !> Local solvers: bi-potential projections, exact, Newton.
   integer, parameter, public :: local_bipot = 1, local_exact = 2, local_newton = 3
   character(8), parameter, public :: local_names(3) = [character(8) :: 'BIPOT', 'EXACT', &
       'NEWTON']
 
   type, public :: cone_options_t
-    !> AUTO, GS, ANDERSON, NESTEROV, NEWTON, PROX, PRODUCTS
-    character(8) :: solver = 'AUTO'
+    integer :: solver = solver_auto
     real(wp) :: tolerance = 1.0e-10_wp   !< on error and on eta
     integer :: max_sweeps = 10000
     real(wp) :: rho_factor = 1.0_wp      !< rho = factor / lmax(W_aa)
@@ -66,9 +73,17 @@ module cone_types
     integer, allocatable :: pivot(:), unknown(:, :)
   end type cone_work_t
 
-  public :: size_cone_work, size_active_set, local_solver, late
+  public :: size_cone_work, size_active_set, find_solver, local_solver, late
 
 contains
+
+  !> The number of a solver by its name; 0 = no such.
+  pure integer function find_solver(name)
+    character(*), intent(in) :: name
+    do find_solver = size(solver_names), 1, -1
+      if (name == solver_names(find_solver)) return
+    end do
+  end function find_solver
 
   !> The number of a local solver by its name; 0 = no such.
   pure integer function local_solver(name)

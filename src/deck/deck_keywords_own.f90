@@ -1,9 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The program's own keywords, *BIPACT_..., all optional, each at most once per deck.
 module deck_keywords_own
+  use cone_types, only: deck_solver_names, local_names
   use deck_names, only: table_keywords, table_timing, field_names, mass_names, choices
   use deck_schemes, only: schemes
   use deck_table, only: table_t, add_keyword, add_card, add_field, keyword_refused
+  use linalg_order, only: order_names
+  use linalg_registry, only: engine_names
   implicit none
   private
   public :: add_own_keywords
@@ -13,6 +16,8 @@ contains
   !> Adds the rows of the own keywords.
   subroutine add_own_keywords(table)
     type(table_t), intent(inout) :: table
+    character(8), allocatable :: engines(:)
+    call engine_names(engines)
     call add_keyword(table, 'BIPACT_TIME', 'time scheme', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'SCHEME', 'W10 =THETA '//choices(schemes%name), 'time scheme')
@@ -30,12 +35,13 @@ contains
     call add_field(table, 'COURANT', 'R10 >=0 <=1', 'of DISPERSION; blank = from DT0')
     call add_keyword(table, 'BIPACT_CONTACT', 'contact solver', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'SOLVER', 'W10 =AUTO |AUTO|GS|PROX|NEWTON|', &
+    call add_field(table, 'SOLVER', 'W10 =AUTO '//choices(deck_solver_names), &
         'AUTO: the cheapest that converges; GS: sweeps alone')
     call add_field(table, 'TOL', 'R10 =1.0E-10 >0 <=0.01', 'of the certificate')
     call add_field(table, 'MAXIT', 'I10 =10000 >0', 'most sweeps of a solve')
     call add_field(table, 'RHO', 'R10 =1.0 >0 <2', 'factor on 1/lmax(W_aa)')
-    call add_field(table, 'LOCAL', 'W10 =BIPOT |BIPOT|EXACT|NEWTON|', 'solver of one contact')
+    call add_field(table, 'LOCAL', 'W10 ='//trim(local_names(1))//' '//choices(local_names), &
+        'solver of one contact')
     call add_field(table, 'LTOL', 'R10 =0.01 >0 <=1', 'looseness of the local solves')
     call add_field(table, 'LMAXIT', 'I10 =50 >0', 'most local iterations')
     call add_field(table, 'WARM', 'I10 =1 >=0 <=1', &
@@ -53,9 +59,10 @@ contains
     call add_field(table, 'DEVERY', 'I10 =1 >0', 'every so many steps')
     call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'ENGINE', 'W10 =AUTO |AUTO|LDLT|SKYLINE|', 'factor')
-    call add_field(table, 'ORDER', 'W10 =AUTO |AUTO|NATURAL|RCM|METIS|', &
-        'elimination order; AUTO: fewest flops')
+    call add_field(table, 'ENGINE', 'W10 =AUTO '// &
+        choices([character(8) :: 'AUTO', engines]), 'factor')
+    call add_field(table, 'ORDER', 'W10 =AUTO '// &
+        choices([character(8) :: 'AUTO', order_names]), 'elimination order; AUTO: fewest flops')
     call add_field(table, 'SCHUR', 'W10 =AUTO |AUTO|YES|', 'contact dofs last')
     call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
     call add_field(table, 'CGTOL', 'R10 fixed')

@@ -4,25 +4,16 @@ program fclib_main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_text, status_deck
-  use base_strings, only: to_text
+  use base_strings, only: to_text, join
   use base_system, only: leave
   use base_version, only: version
   use cone_solver, only: solve_cone
-  use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_solver
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, find_solver, local_solver, &
+      local_names, solver_names
   use hdf5_file, only: start_library
   use fclib_problem, only: problem_t, read_problem, write_problem, write_solution
   implicit none
-  character(*), parameter :: usage = &
-      'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--local L]'// &
-      ' [--max-time SECONDS] [-o FILE]'// &
-      new_line('a')//'       bipact-fclib PROBLEM --convert FILE.hdf5'// &
-      new_line('a')//'  solvers: AUTO GS ANDERSON NESTEROV NEWTON PROX PRODUCTS;'// &
-      ' tolerance 1e-8 unless given;'// &
-      new_line('a')//'  local solvers (one contact in a sweep): BIPOT EXACT NEWTON;'// &
-      new_line('a')//'  -o writes /solution (u, r, v) and /errors (HDF5)'// &
-      new_line('a')//'  PROBLEM may be a contact_N.txt of bipact; --convert writes it as FCLIB'
-  character(8), parameter :: solvers(7) = [character(8) :: 'AUTO', 'GS', 'ANDERSON', &
-      'NEWTON', 'PROX', 'NESTEROV', 'PRODUCTS']
+  character(:), allocatable :: usage
   type(cone_options_t) :: options
   type(problem_t) :: problem
   type(cone_work_t) :: work
@@ -32,6 +23,15 @@ program fclib_main
   real(wp), allocatable :: r(:, :)
   real(wp) :: start, finish, seconds
 
+  usage = join([character(100) :: &
+      'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--local L]'// &
+      ' [--max-time SECONDS] [-o FILE]', &
+      '       bipact-fclib PROBLEM --convert FILE.hdf5', &
+      '  solvers: '//join(solver_names, ' ')//'; tolerance 1e-8 unless given;', &
+      '  local solvers (one contact in a sweep): '//join(local_names, ' ')//';', &
+      '  -o writes /solution (u, r, v) and /errors (HDF5)', &
+      '  PROBLEM may be a contact_N.txt of bipact; --convert writes it as FCLIB'], &
+      new_line('a'))
   options%tolerance = 1.0e-8_wp
   options%warm_start = .false.
   options%max_sweeps = 100000
@@ -51,7 +51,7 @@ program fclib_main
     write (output_unit, '(a)') &
         '# problem contacts dofs solver sweeps newton cpu error error2018 eta'
     write (output_unit, '(a,2(1x,i0),1x,a,2(1x,i0),es11.3,3es12.3e3)') last_part(input), &
-        problem%contacts, size(r), trim(options%solver), certificate%sweeps, &
+        problem%contacts, size(r), trim(solver_names(options%solver)), certificate%sweeps, &
         certificate%newton_steps, finish - start, certificate%error, certificate%error2018, &
         certificate%eta
     if (certificate%wedged > 0) write (error_unit, '(a)') 'bipact-fclib: warning: '// &
@@ -86,9 +86,9 @@ contains
         call read_number(word, argument(i + 1), seconds)
         i = i + 1
       case ('--solver')
-        options%solver = argument(i + 1)
-        if (all(options%solver /= solvers)) &
-            call fail(status, status_deck, 'unknown solver "'//argument(i + 1)//'"', hint=usage)
+        options%solver = find_solver(argument(i + 1))
+        if (options%solver == 0) call fail(status, status_deck, &
+            'unknown solver "'//argument(i + 1)//'"', hint=usage)
         i = i + 1
       case ('--local')
         options%local = local_solver(argument(i + 1))

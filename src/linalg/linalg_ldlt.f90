@@ -45,7 +45,6 @@ contains
     this%n = graph%n
     this%n_last = size(last)
     this%leading = graph%n - size(last)
-    this%info%engine = 'LDLT'
     call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
         this%info%multiplications, status)
     if (failed(status)) return

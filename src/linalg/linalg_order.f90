@@ -11,6 +11,11 @@ module linalg_order
   private
   public :: choose_order, reverse_cuthill_mckee
 
+  !> The orders and their names; AUTO is the one that costs least.
+  integer, parameter, public :: order_natural = 1, order_rcm = 2, order_metis = 3
+  character(7), parameter, public :: order_names(3) = [character(7) :: 'NATURAL', 'RCM', &
+      'METIS']
+
   !> Below this many multiplications METIS is not asked: its own run would cost more than it
   !> saves.
   integer(i8), parameter :: metis_threshold = 2000000_i8
@@ -31,7 +36,7 @@ module linalg_order
 
 contains
 
-  !> Order of the nodes (new -> old) by name: NATURAL, RCM, METIS, or AUTO = the one whose
+  !> Order of the nodes (new -> old) by name, one of order_names, or AUTO = the one whose
   !> factor costs the fewest multiplications. The nodes of `last` come last, in their own order.
   subroutine choose_order(graph, last, wanted, order, chosen, flops, status)
     type(graph_t), intent(in) :: graph
@@ -41,7 +46,6 @@ contains
     character(:), allocatable, intent(out) :: chosen
     integer(i8), intent(out) :: flops
     type(status_t), intent(inout) :: status
-    character(7), parameter :: names(3) = ['NATURAL', 'RCM    ', 'METIS  ']
     integer, allocatable :: trial(:), leading(:)
     integer(i8) :: cost
     integer :: k, n
@@ -49,18 +53,18 @@ contains
     chosen = ''
     call leading_nodes(graph%n, last, leading)
     n = size(leading)
-    do k = 1, 3
-      if (wanted /= 'AUTO' .and. wanted /= names(k)) cycle
-      if (wanted == 'AUTO' .and. k == 3 .and. flops < metis_threshold) exit
+    do k = 1, size(order_names)
+      if (wanted /= 'AUTO' .and. wanted /= order_names(k)) cycle
+      if (wanted == 'AUTO' .and. k == order_metis .and. flops < metis_threshold) exit
       allocate (trial(graph%n))
-      call one_order(graph, leading, last, trim(names(k)), trial(:n), status)
+      call one_order(graph, leading, last, k, trial(:n), status)
       if (failed(status)) return
       trial(n + 1:) = last
       cost = count_factor(graph, trial, n)
       if (cost < flops) then
         flops = cost
         call move_alloc(trial, order)
-        chosen = trim(names(k))
+        chosen = trim(order_names(k))
       else
         deallocate (trial)
       end if
@@ -87,16 +91,16 @@ contains
     end do
   end subroutine leading_nodes
 
-  subroutine one_order(graph, nodes, last, name, order, status)
+  subroutine one_order(graph, nodes, last, kind, order, status)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: nodes(:), last(:)
-    character(*), intent(in) :: name
+    integer, intent(in) :: kind
     integer, intent(out) :: order(:)
     type(status_t), intent(inout) :: status
-    select case (name)
-    case ('RCM')
+    select case (kind)
+    case (order_rcm)
       call reverse_cuthill_mckee(graph, nodes, last, order)
-    case ('METIS')
+    case (order_metis)
       call metis_order(graph, nodes, order, status)
     case default
       order = nodes
@@ -199,7 +203,7 @@ contains
     deallocate (room)
     info = int(metis_node_nd(int(n, c_int), xadj, adjncy, c_null_ptr, c_null_ptr, perm, iperm))
     if (info /= 1) call fail(status, status_numerical, 'METIS found no elimination order', &
-        hint='choose ORDER RCM on *BIPACT_SOLVER')
+        hint='choose ORDER '//trim(order_names(order_rcm))//' on *BIPACT_SOLVER')
     order = nodes(perm + 1)
   end subroutine metis_order
 

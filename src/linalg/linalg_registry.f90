@@ -1,32 +1,58 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The linear solvers by name. To add one: its file, its `use`, its case.
+!> The linear solvers by name, and the one place that has the names. To add one: its file, and
+!> here its `use` and its line in find_engine; reader, documentation and tests follow.
 module linalg_registry
   use base_status, only: status_t, fail, status_deck
-  use linalg_solver, only: solver_t, solver_options_t
+  use base_strings, only: join
   use linalg_ldlt, only: ldlt_t
   use linalg_skyline, only: skyline_t
+  use linalg_solver, only: solver_t, solver_options_t
   implicit none
   private
-  public :: make_solver
+  public :: make_solver, engine_names
 
 contains
 
-  !> A solver of the wanted engine, with its options.
+  !> A solver of the wanted engine, with its options; fails for an unknown name.
   subroutine make_solver(options, solver, status)
     type(solver_options_t), intent(in) :: options
     class(solver_t), allocatable, intent(out) :: solver
     type(status_t), intent(inout) :: status
-    select case (trim(options%engine))
-    case ('AUTO', 'LDLT')
-      allocate (ldlt_t :: solver)
-    case ('SKYLINE')
-      allocate (skyline_t :: solver)
-    case default
+    character(8), allocatable :: names(:)
+    call find_engine(options%engine, names, solver)
+    if (allocated(solver)) then
+      solver%options = options
+    else
       call fail(status, status_deck, 'solver engine "'//trim(options%engine)// &
-          '" is not available', hint='choose AUTO, LDLT or SKYLINE')
-      return
-    end select
-    solver%options = options
+          '" is not available', hint='choose one of AUTO, '//join(names, ', '))
+    end if
   end subroutine make_solver
+
+  !> The names of all engines.
+  subroutine engine_names(names)
+    character(8), allocatable, intent(out) :: names(:)
+    class(solver_t), allocatable :: none
+    call find_engine('', names, none)
+  end subroutine engine_names
+
+  !> Names all engines and makes the wanted one; AUTO is the first. solver is not allocated for
+  !> an unknown name.
+  subroutine find_engine(wanted, names, solver)
+    character(*), intent(in) :: wanted
+    character(8), allocatable, intent(out) :: names(:)
+    class(solver_t), allocatable, intent(out) :: solver
+    allocate (names(0))
+    call offer('LDLT', ldlt_t())
+    call offer('SKYLINE', skyline_t())
+  contains
+    subroutine offer(name, engine)
+      character(*), intent(in) :: name
+      class(solver_t), intent(in) :: engine
+      names = [character(8) :: names, name]
+      if (allocated(solver) .or. (wanted /= name .and. wanted /= 'AUTO')) return
+      allocate (solver, mold=engine)
+      solver%info%engine = name
+    end subroutine offer
+  end subroutine find_engine
 
 end module linalg_registry

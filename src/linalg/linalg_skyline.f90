@@ -9,7 +9,7 @@ module linalg_skyline
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_dense, only: dense_factor
-  use linalg_order, only: choose_order
+  use linalg_order, only: choose_order, order_names, order_rcm
   use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
   implicit none
   private
@@ -41,12 +41,11 @@ contains
     character(:), allocatable :: wanted
     integer :: k, m, low
     wanted = trim(this%options%order)
-    if (wanted == 'AUTO') wanted = 'RCM'
+    if (wanted == 'AUTO') wanted = trim(order_names(order_rcm))
     if (checks_on) call check_graph(graph, last, 'skyline_analyse')
     this%n = graph%n
     this%n_last = size(last)
     this%leading = 2*(graph%n - size(last))
-    this%info%engine = 'SKYLINE'
     call choose_order(graph, last, wanted, this%order, this%info%order, &
         this%info%multiplications, status)
     if (failed(status)) return

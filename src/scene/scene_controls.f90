@@ -2,7 +2,7 @@
 !> Time, scheme, mass and solver options: from cards to the model.
 module scene_controls
   use base_kinds, only: wp, zero
-  use cone_types, only: cone_options_t, local_solver
+  use cone_types, only: cone_options_t, find_solver, local_solver
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_problem, add_note
   use deck_schemes, only: scheme_traits_t, traits_of
@@ -185,7 +185,7 @@ contains
     integer :: r, second
     r = deck%next('BIPACT_CONTACT', 1, 0)
     if (r > 0) then
-      cone%solver = deck%word(r, 'SOLVER')
+      cone%solver = find_solver(deck%word(r, 'SOLVER'))
       cone%tolerance = deck%real(r, 'TOL')
       cone%max_sweeps = deck%integer(r, 'MAXIT')
       cone%rho_factor = deck%real(r, 'RHO')

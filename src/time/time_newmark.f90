@@ -10,8 +10,8 @@ module time_newmark
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical
   use linalg_graph, only: block_matrix_t
-  use linalg_registry, only: make_solver
-  use linalg_solver, only: solver_t, solver_options_t, solve_whole
+  use linalg_ldlt, only: ldlt_t
+  use linalg_solver, only: solve_whole
   use model_data, only: model_t, curve_value, curve_slope, motion_velocity, &
       motion_acceleration, motion_displacement
   use model_state, only: state_t
@@ -57,7 +57,7 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    class(solver_t), allocatable :: solver
+    type(ldlt_t) :: solver
     type(block_matrix_t) :: matrix
     real(wp), allocatable :: f(:, :), a(:, :)
     real(wp) :: size_f
@@ -72,7 +72,7 @@ contains
     call clear_fixed(system, f)
     size_f = maxval(abs(f))
     if (.not. size_f > zero) return
-    call make_solver(solver_options_t(engine='LDLT', null_pivot=null_pivot), solver, status)
+    solver%options%null_pivot = null_pivot
     call effective_matrix(system, one, zero, zero, matrix)
     call solver%analyse(system%graph, [integer ::], status)
     call solver%factor(system%graph, matrix, status)

@@ -59,12 +59,13 @@ while IFS='|' read -r file use message; do
   sed -i /base_version/d src/run/main.f90
   module src/material/material_a.f90
   module src/model/model_a.f90
+  module src/fclib/fclib_a.f90
   module "$file" "$use"
   scan; expect "$file: $use" 1 "$message"
 done <<'END'
 src/base/base_b.f90|use linalg_a, only: x|src/base/base_b.f90:2: error: layer base may not use linalg_a
 src/contact/contact_a.f90|USE, non_intrinsic :: Material_A|layer contact may not use material_a
-src/deck/deck_a.f90|use :: linalg_a|layer deck may not use linalg_a
+src/deck/deck_a.f90|use :: fclib_a|layer deck may not use fclib_a
 src/base/base_b.f90|use base_c, only: x ! text|no source holds module base_c
 src/base/base_b.f90|use base_b, only: x|uses itself
 src/base/linalg_b.f90||must begin with its folder

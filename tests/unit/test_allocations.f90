@@ -9,7 +9,7 @@ program test_allocations
   use cone_dense, only: delassus_dense_t
   use cone_solver, only: solve_cone
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_names, &
-      size_cone_work
+      size_cone_work, solver_anderson, solver_gs, solver_prox
   use count_allocations, only: allocations_so_far
   use deck_parameter, only: override_t
   use random_contacts, only: make_problem
@@ -52,7 +52,7 @@ contains
     integer :: k, few, many
     mu = 0.7_wp
     call make_problem(d, n, 1.0e8_wp, 1.0_wp, mu(1), w, q)
-    options%solver = 'GS'
+    options%solver = solver_gs
     options%tolerance = 1.0e-15_wp
     do k = 1, size(local_names)
       options%local = k
@@ -60,7 +60,7 @@ contains
       many = requests(options, w, q, mu, 400)
       call check_true(abs(many - few) < message, 'none in a sweep with '//local_names(k))
     end do
-    options%solver = 'ANDERSON'
+    options%solver = solver_anderson
     few = requests(options, w, q, mu, 40)
     many = requests(options, w, q, mu, 90)
     call check_true(abs(many - few) < message, 'none in an accelerated sweep')
@@ -98,7 +98,7 @@ contains
     mu = 0.7_wp
     call size_cone_work(work, 3, 12)
     call make_problem(3, 12, 1.0e8_wp, 3.0_wp, mu(1), w, q)
-    options%solver = 'PROX'
+    options%solver = solver_prox
     do k = 1, 2
       options%tolerance = merge(1.0e-2_wp, 1.0e-10_wp, k == 1)
       r = zero

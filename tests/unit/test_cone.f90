@@ -8,7 +8,7 @@ program test_cone
   use cone_dense, only: delassus_dense_t
   use cone_local, only: project_on_cone
   use cone_solver, only: solve_cone
-  use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open, solver_gs
   use linalg_dense, only: solve_general
   implicit none
   real(wp), parameter :: eps = epsilon(one)
@@ -335,7 +335,7 @@ contains
     q = -one
     r = zero
     mu = 0.3_wp
-    options%solver = 'GS'
+    options%solver = solver_gs
     options%max_sweeps = 1
     call solve(options, w, q, mu, r, work, certificate, status)
     call check_true(failed(status) .and. .not. certificate%met, 'one sweep is not enough')

@@ -9,7 +9,7 @@ program test_cone_solver
       dense_of_blocks, find_components
   use cone_products, only: delassus_products_t, make_products
   use cone_solver, only: solve_cone
-  use cone_types, only: cone_options_t, cone_work_t, certificate_t
+  use cone_types, only: cone_options_t, cone_work_t, certificate_t, find_solver, solver_gs
   use linalg_dense, only: largest_eigenvalue
   use random_contacts, only: make_problem
   use structured_contacts, only: structure_t, make_structure, misfit
@@ -96,7 +96,7 @@ contains
     real(wp), parameter :: frictions(4) = [0.0_wp, 0.1_wp, 0.7_wp, 10.0_wp]
     type(cone_options_t) :: options
     integer :: d, n, k, e, unsolved, wrong
-    options%solver = solver
+    options%solver = find_solver(solver)
     options%tolerance = 1.0e-8_wp
     unsolved = 0
     wrong = 0
@@ -250,7 +250,7 @@ contains
     real(wp) :: q(3, 6), mu(6), r(3, 6)
     mu = 0.5_wp
     call make_problem(3, 6, 1.0e4_wp, one, 0.5_wp, w, q)
-    options%solver = 'GS'
+    options%solver = solver_gs
     options%max_sweeps = 1
     options%tolerance = 1.0e-14_wp
     r = zero
