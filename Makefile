@@ -17,6 +17,7 @@ STORE_BIN := bin/bipact-hdf5$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 FCLIB_BIN := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
 SUPPORT := $(B)/libsupport.a
+example-programs := $(patsubst examples/%.f90,$(B)/examples/%,$(wildcard examples/*.f90))
 # HDF5, for bipact-hdf5 and bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
 HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
                 /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
@@ -25,7 +26,7 @@ Q := $(if $(V),,@)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .DEFAULT_GOAL := all
-.PHONY: all no-hdf5 demo test test-unit test-programs bench-programs check-style doc deps venv debug \
+.PHONY: all no-hdf5 demo test test-unit test-programs bench-programs examples example-programs check-style doc deps venv debug \
         sanitize fuzz collide bench bench-features bench-fclib report stability \
         clean distclean help FORCE
 
@@ -33,7 +34,7 @@ Q := $(if $(V),,@)
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
-light := demo test test-unit check-style doc deps venv debug sanitize fuzz collide bench bench-features bench-fclib \
+light := demo test test-unit examples check-style doc deps venv debug sanitize fuzz collide bench bench-features bench-fclib \
          report stability clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
@@ -49,12 +50,16 @@ demo: ## install what is missing, build, run the two-bar impact and draw its fig
 
 test: ## install what is missing, build, run every test
 	+@$(again) venv
-	+@$(again) WERROR=1 all test-programs
+	+@$(again) WERROR=1 all test-programs example-programs
 	@FLAVOUR=$(FLAVOUR) tests/run.sh
 
 test-unit: ## build and run the unit tests only
 	+@$(again) test-programs
 	@FLAVOUR=$(FLAVOUR) tests/run.sh unit/
+
+examples: ## build the examples of the library and run them
+	+@$(again) example-programs
+	@for program in $(example-programs); do echo "$$program"; $$program || exit 1; done
 
 check-style: ## check the layout rules of sources and scripts
 	@$(PYTHON3) scripts/check_style.py
@@ -165,6 +170,7 @@ store := $(wildcard src/store/*.f90)
 support := $(wildcard tests/support/*.f90)
 units := $(wildcard tests/unit/test_*.f90)
 benches := $(wildcard bench/*.f90)
+examples := $(wildcard examples/*.f90)
 object = $(patsubst %,$(B)/obj/%.o,$(basename $(notdir $(1))))
 programs := $(patsubst tests/unit/%.f90,$(B)/tests/%,$(units))
 bench-programs := $(patsubst bench/%.f90,$(B)/bench/%,$(benches))
@@ -212,6 +218,11 @@ bench-programs: $(bench-programs)
 $(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
 
+example-programs: $(example-programs)
+
+$(example-programs): $(B)/examples/%: $(B)/obj/%.o $(LIB) $(B)/flags
+	$(link)
+
 # test_allocations puts itself between the program and the library of C.
 $(B)/tests/test_allocations: LDFLAGS += -Wl,--wrap=malloc -Wl,--wrap=realloc
 $(programs): $(B)/tests/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
@@ -242,7 +253,7 @@ $(B)/flags: FORCE
 
 # Scanned each time (milliseconds): only so a removed or renamed source is noticed.
 $(B)/deps.mk: $(version) FORCE
-	@awk -f scripts/mkdeps.awk $(sources) $(support) $(units) $(benches) >$@.new
+	@awk -f scripts/mkdeps.awk $(sources) $(support) $(units) $(benches) $(examples) >$@.new
 	@$(refresh)
 
 include $(B)/deps.mk

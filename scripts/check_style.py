@@ -323,7 +323,7 @@ def check_file(root, path):
     if text and not text.endswith("\n") and path.suffix not in NO_FINAL_NEWLINE_NEEDED:
         problem(path, len(lines), "no newline at the end of the file")
     folder = path.parts[0]
-    fortran = path.suffix in (".f90", ".F90") and folder in ("src", "tests")
+    fortran = path.suffix in (".f90", ".F90") and folder in ("src", "tests", "examples")
     if fortran or path.suffix in (".sh", ".py") and folder in ("scripts", "tests"):
         check_layout(path, lines, fortran)
     if fortran:

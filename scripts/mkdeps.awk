@@ -1,6 +1,7 @@
 # Reads Fortran sources, checks the layer rules, and writes the dependencies for make.
 #
-#   awk -f mkdeps.awk src/*/*.f90 build/FLAVOUR/gen/*.f90 tests/support/*.f90 tests/unit/*.f90 bench/*.f90
+#   awk -f mkdeps.awk src/*/*.f90 build/FLAVOUR/gen/*.f90 tests/support/*.f90 tests/unit/*.f90 bench/*.f90 \
+#       examples/*.f90
 #
 # An object depends on the .mod files of the modules it uses. A .mod depends on its object with a
 # recipe that does nothing: gfortran leaves an unchanged .mod untouched, so that a change inside a
@@ -37,7 +38,7 @@ function register(path,   part, n, name, folder) {
   if (name in source) fail(path, "a file of this name exists already: " source[name])
   source[name] = path
   name_of[path] = name
-  if (path ~ /^(tests|bench)\//) return  # these may use everything
+  if (path ~ /^(tests|bench|examples)\//) return  # these may use everything
   layer[path] = (folder == "gen") ? "base" : folder
   if (!(layer[path] in rank))
     fail(path, "folder " folder " is not a layer; the layers are listed in scripts/mkdeps.awk")
@@ -57,7 +58,7 @@ words == 2 && word[1] == "program" {
   program[FILENAME] = word[2]
 }
 
-words == 2 && word[1] == "module" && FILENAME !~ /^(tests\/unit|bench)\// {
+words == 2 && word[1] == "module" && FILENAME !~ /^(tests\/unit|bench|examples)\// {
   if (FILENAME in module) fail(FILENAME ":" FNR, "a file holds one module")
   else if (word[2] != name_of[FILENAME])
     fail(FILENAME ":" FNR, "module " word[2] " must have the name of its file")
@@ -77,7 +78,7 @@ function check_use(path, name,   where, from, to) {
   where = path ":" line_of[path, name]
   if (!(name in source)) { fail(where, "no source holds module " name); return }
   if (name == name_of[path]) { fail(where, "module " name " uses itself"); return }
-  if (path ~ /^(tests|bench)\//) return
+  if (path ~ /^(tests|bench|examples)\//) return
   from = layer[path]
   to = layer[source[name]]
   if (to == "") fail(where, "a source may not use " name " of the tests")
@@ -93,7 +94,7 @@ END {
   for (i = 1; i < ARGC; i++) {
     path = ARGV[i]
     name = name_of[path]
-    if (path in main || path ~ /^(tests\/unit|bench)\//) {
+    if (path in main || path ~ /^(tests\/unit|bench|examples)\//) {
       if (!(path in program)) fail(path, "no program statement found")
     } else if (!(path in module)) fail(path, "no module statement found")
 
