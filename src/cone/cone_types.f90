@@ -80,18 +80,21 @@ contains
   !> The number of a solver by its name; 0 = no such.
   pure integer function find_solver(name)
     character(*), intent(in) :: name
-    do find_solver = size(solver_names), 1, -1
-      if (name == solver_names(find_solver)) return
-    end do
+    find_solver = number_of(name, solver_names)
   end function find_solver
 
   !> The number of a local solver by its name; 0 = no such.
   pure integer function local_solver(name)
     character(*), intent(in) :: name
-    do local_solver = size(local_names), 1, -1
-      if (name == local_names(local_solver)) return
-    end do
+    local_solver = number_of(name, local_names)
   end function local_solver
+
+  pure integer function number_of(name, names)
+    character(*), intent(in) :: name, names(:)
+    do number_of = size(names), 1, -1
+      if (name == names(number_of)) return
+    end do
+  end function number_of
 
   !> Makes the work space for nc contacts of d components; does nothing when it fits already.
   pure subroutine size_cone_work(work, d, contacts)
