@@ -50,6 +50,13 @@ def bipact(deck, folder, *options):
     return done.returncode, done.stderr, done.stdout
 
 
+def words_of(field):
+    """The words that a field of a deck takes, as the program lists them."""
+    listed = subprocess.run([BIPACT, "--keywords"], capture_output=True, text=True).stdout
+    row = next(x for x in listed.splitlines() if x.startswith("| %s |" % field))
+    return row.split(" | ")[5].split(", ")
+
+
 def run_text(name, text, *options):
     """Writes a deck from its text and runs it; returns (folder, exit code, standard error)."""
     deck, folder = os.path.join(TMP, name + ".k"), os.path.join(TMP, name)
