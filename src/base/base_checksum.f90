@@ -19,14 +19,18 @@ contains
     character(*), intent(in) :: text
     character(16) :: digits
     integer(i8) :: sums(2)
-    integer :: k
-    character(4*piece) :: part
+    integer :: k, n
+    character(4) :: tail
     sums = 0_i8
-    do k = 1, len(text), 4*piece
-      part = repeat(achar(0), 4*piece)
-      part(:min(4*piece, len(text) - k + 1)) = text(k:min(len(text), k + 4*piece - 1))
-      call add_words(transfer(part, [0_i4], (min(4*piece, len(text) - k + 1) + 3)/4), sums)
+    do k = 1, len(text) - 3, 4*piece
+      n = min(piece, (len(text) - k + 1)/4)
+      call add_words(transfer(text(k:k + 4*n - 1), [0_i4], n), sums)
     end do
+    n = modulo(len(text), 4)
+    if (n > 0) then
+      tail = text(len(text) - n + 1:)//repeat(achar(0), 4)
+      call add_words(transfer(tail, [0_i4]), sums)
+    end if
     digits = as_digits(sums)
   end function checksum_of_text
 

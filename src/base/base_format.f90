@@ -9,6 +9,7 @@ module base_format
   private
   integer, parameter :: qp = selected_real_kind(33)
   integer, parameter :: range10 = 280
+  integer(i8), parameter :: beyond_digits = 10_i8**17
   real(wp), parameter :: splitter = 134217729.0_wp   !< 2^27 + 1
   integer, parameter, public :: real_width = 24
 
@@ -19,7 +20,16 @@ module base_format
     real(wp) :: low(-range10:range10)
   end type real_writer_t
 
-  public :: make_real_writer, put_real, put_integer
+  !> 10^(2^j), j = 0..8, and their inverses, as sums of two doubles.
+  real(qp), parameter :: up(0:8) = [1.0e1_qp, 1.0e2_qp, 1.0e4_qp, 1.0e8_qp, 1.0e16_qp, &
+      1.0e32_qp, 1.0e64_qp, 1.0e128_qp, 1.0e256_qp]
+  real(qp), parameter :: down(0:8) = [1.0e-1_qp, 1.0e-2_qp, 1.0e-4_qp, 1.0e-8_qp, 1.0e-16_qp, &
+      1.0e-32_qp, 1.0e-64_qp, 1.0e-128_qp, 1.0e-256_qp]
+  real(wp), parameter :: up_high(0:8) = real(up, wp), up_low(0:8) = real(up - up_high, wp)
+  real(wp), parameter :: down_high(0:8) = real(down, wp), &
+      down_low(0:8) = real(down - down_high, wp)
+
+  public :: make_real_writer, put_real, put_one_real, put_integer, put_long
 
 contains
 
@@ -44,46 +54,107 @@ contains
     type(real_writer_t), intent(in) :: writer
     real(wp), intent(in) :: x
     character(real_width), intent(out) :: text
-    integer(i8), parameter :: high = 10_i8**17
-    real(wp), parameter :: log10_of_2 = 0.30102999566398120_wp
     integer(i8) :: digits
     integer :: e
-    real(wp) :: a
-    a = abs(x)
-    if (a <= 0.0_wp) then
-      text = ' 0.0000000000000000E+000'
-    else if (.not. (a > 1.0e-260_wp .and. a < 1.0e260_wp)) then
-      write (text, '(es24.16e3)') x
+    if (is_special(x)) then
+      call put_special(x, text)
     else
-      e = floor((exponent(a) - 1)*log10_of_2)
-      digits = scaled_digits(writer, a, 16 - e)
-      if (digits >= high) then
+      e = decimal_exponent(x)
+      digits = scaled_digits(abs(x), writer%high(16 - e), writer%low(16 - e))
+      if (digits >= beyond_digits) then
         e = e + 1
-        digits = scaled_digits(writer, a, 16 - e)
+        digits = scaled_digits(abs(x), writer%high(16 - e), writer%low(16 - e))
       end if
       call put_digits(digits, e, x < 0, text)
     end if
   end subroutine put_real
 
-  !> a*10^k rounded to an integer.
-  pure integer(i8) function scaled_digits(writer, a, k)
-    type(real_writer_t), intent(in) :: writer
-    real(wp), intent(in) :: a
-    integer, intent(in) :: k
-    real(wp) :: product, rest, a_high, a_low, p_high, p_low, carry
+  !> The same without a table of powers: for a few numbers, which do not pay for one.
+  pure subroutine put_one_real(x, text)
+    real(wp), intent(in) :: x
+    character(real_width), intent(out) :: text
+    real(wp) :: high, low
+    integer(i8) :: digits
+    integer :: e
+    if (is_special(x)) then
+      call put_special(x, text)
+    else
+      e = decimal_exponent(x)
+      call power_of_ten(16 - e, high, low)
+      digits = scaled_digits(abs(x), high, low)
+      if (digits >= beyond_digits) then
+        e = e + 1
+        call power_of_ten(16 - e, high, low)
+        digits = scaled_digits(abs(x), high, low)
+      end if
+      call put_digits(digits, e, x < 0, text)
+    end if
+  end subroutine put_one_real
+
+  pure logical function is_special(x)
+    real(wp), intent(in) :: x
+    is_special = .not. (abs(x) > 1.0e-260_wp .and. abs(x) < 1.0e260_wp)
+  end function is_special
+
+  pure subroutine put_special(x, text)
+    real(wp), intent(in) :: x
+    character(real_width), intent(out) :: text
+    text = ' 0.0000000000000000E+000'
+    if (.not. abs(x) <= 0.0_wp) write (text, '(es24.16e3)') x
+  end subroutine put_special
+
+  !> The exponent of ten of x, or one less.
+  pure integer function decimal_exponent(x)
+    real(wp), intent(in) :: x
+    real(wp), parameter :: log10_of_2 = 0.30102999566398120_wp
+    decimal_exponent = floor((exponent(x) - 1)*log10_of_2)
+  end function decimal_exponent
+
+  !> a*(high + low), a power of ten, rounded to an integer.
+  pure integer(i8) function scaled_digits(a, high, low)
+    real(wp), intent(in) :: a, high, low
+    real(wp) :: product, rest
     integer(i8) :: whole
-    product = a*writer%high(k)
-    carry = splitter*a
-    a_high = carry - (carry - a)
-    a_low = a - a_high
-    carry = splitter*writer%high(k)
-    p_high = carry - (carry - writer%high(k))
-    p_low = writer%high(k) - p_high
-    rest = ((a_high*p_high - product) + a_high*p_low + a_low*p_high) + a_low*p_low
-    rest = rest + a*writer%low(k)
+    call multiply(a, high, product, rest)
+    rest = rest + a*low
     whole = int(product, i8)
     scaled_digits = whole + nint((product - real(whole, wp)) + rest, i8)
   end function scaled_digits
+
+  !> a*b = product + rest exactly (Dekker 1971).
+  pure subroutine multiply(a, b, product, rest)
+    real(wp), intent(in) :: a, b
+    real(wp), intent(out) :: product, rest
+    real(wp) :: a_high, a_low, b_high, b_low, carry
+    product = a*b
+    carry = splitter*a
+    a_high = carry - (carry - a)
+    a_low = a - a_high
+    carry = splitter*b
+    b_high = carry - (carry - b)
+    b_low = b - b_high
+    rest = ((a_high*b_high - product) + a_high*b_low + a_low*b_high) + a_low*b_low
+  end subroutine multiply
+
+  !> 10^k as a sum of two doubles, |k| < 512, from the powers of the binary digits of k; it is
+  !> exact up to 10^22, then right to 1e-30.
+  pure subroutine power_of_ten(k, high, low)
+    integer, intent(in) :: k
+    real(wp), intent(out) :: high, low
+    real(wp) :: factor(2), product, rest
+    integer :: j
+    high = 1.0_wp
+    low = 0.0_wp
+    do j = 0, 8
+      if (.not. btest(abs(k), j)) cycle
+      factor = [up_high(j), up_low(j)]
+      if (k < 0) factor = [down_high(j), down_low(j)]
+      call multiply(high, factor(1), product, rest)
+      rest = rest + (high*factor(2) + low*factor(1))
+      high = product + rest
+      low = rest - (high - product)
+    end do
+  end subroutine power_of_ten
 
   !> Lays out 17 digits and an exponent of ten.
   pure subroutine put_digits(digits, exponent, negative, text)
@@ -128,5 +199,24 @@ contains
     end do
     if (number < 0 .and. k > 0) text(k:k) = '-'
   end subroutine put_integer
+
+  !> Writes a long integer right-adjusted into text.
+  pure subroutine put_long(number, text)
+    integer(i8), intent(in) :: number
+    character(*), intent(out) :: text
+    integer(i8) :: rest, next
+    integer :: k
+    text = ' '
+    rest = abs(number)
+    k = len(text)
+    do
+      next = rest/10_i8
+      text(k:k) = achar(48 + int(rest - 10_i8*next))
+      rest = next
+      k = k - 1
+      if (rest == 0_i8 .or. k == 0) exit
+    end do
+    if (number < 0_i8 .and. k > 0) text(k:k) = '-'
+  end subroutine put_long
 
 end module base_format

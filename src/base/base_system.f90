@@ -4,10 +4,11 @@ module base_system
   use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, &
       c_null_ptr, c_loc, c_size_t
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use base_kinds, only: i8
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: make_folder, is_terminal, leave, become_sibling
+  public :: make_folder, is_terminal, leave, become_sibling, peak_memory
 
   interface
     integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
@@ -65,6 +66,25 @@ contains
     integer, intent(in) :: descriptor
     is_terminal = c_isatty(int(descriptor, c_int)) /= 0_c_int
   end function is_terminal
+
+  !> Largest resident memory of the process so far, in bytes; -1 where the system does not tell.
+  integer(i8) function peak_memory()
+    character(80) :: line
+    integer(i8) :: kilobytes
+    integer :: unit, ios, end_of_number
+    peak_memory = -1_i8
+    open (newunit=unit, file='/proc/self/status', action='read', status='old', iostat=ios)
+    if (ios /= 0) return
+    do while (ios == 0)
+      read (unit, '(a)', iostat=ios) line
+      if (ios /= 0 .or. line(1:6) /= 'VmHWM:') cycle
+      end_of_number = index(line, 'kB') - 1
+      read (line(8:end_of_number), *, iostat=ios) kilobytes
+      if (ios == 0) peak_memory = 1024_i8*kilobytes
+      exit
+    end do
+    close (unit)
+  end function peak_memory
 
   !> Ends the program with an exit code and no word of the run-time library.
   subroutine leave(code)

@@ -4,11 +4,11 @@
 !> restart files.
 module run_program
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-  use base_files, only: file_size, remove_file
+  use base_files, only: file_exists, file_size, remove_file
   use base_kinds, only: i8
   use base_signal, only: watch_limits, watch_signals
-  use base_status, only: status_t, fail, failed, status_text, status_ok, status_stopped, &
-      status_file, status_deck
+  use base_status, only: status_t, fail, failed, status_text, status_stopped, &
+      status_numerical, status_file, status_deck
   use base_strings, only: stem_of, join_path, upper
   use base_system, only: make_folder, leave, become_sibling
   use base_timers, only: phase_output, phase_other
@@ -25,6 +25,7 @@ module run_program
   use run_report, only: open_log, close_log, write_plan
   use run_restart, only: start_restarts, resume, remove_restarts
   use run_setup, only: read_scene, set_up
+  use run_summary, only: totals_t, find_totals, ending_of, write_run_summary, remove_run_summary
   implicit none
   private
   public :: run_deck
@@ -108,7 +109,10 @@ contains
       return
     end if
     call set_up(run, status)
-    if (failed(status)) return
+    if (failed(status)) then
+      if (status%code == status_numerical) call tell_failed_start(run, status)
+      return
+    end if
     call compute(arguments, run, status)
   end subroutine work
 
@@ -149,8 +153,8 @@ contains
         index(text, new_line('a')//'*BIPACT_RESTART') > 0
   end function likely_storage
 
-  !> Fields and restarts need the program that is linked with HDF5: it starts from the
-  !> beginning.
+  !> Fields and restarts need the program that is linked with HDF5, which is looked for beside
+  !> the file of this one (not beside a link to it): it starts from the beginning.
   subroutine need_storage(arguments, run, status)
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(in) :: run
@@ -159,21 +163,39 @@ contains
     if (allocated(run%storage)) return
     if (.not. (run%plan%fields .or. run%plan%restarts .or. allocated(arguments%restart))) return
     call become_sibling('hdf5', path)
-    call fail(status, status_file, 'field files and restarts need the program "'//path// &
-        '", which cannot be started', hint='install HDF5 (make deps) and build again (make)')
+    if (file_exists(path)) then
+      call fail(status, status_file, 'field files and restarts need the program "'//path// &
+          '", which cannot be started', hint='is it executable, and built for this machine?')
+    else
+      call fail(status, status_file, 'field files and restarts need the program "'//path// &
+          '", which is not there', hint='it belongs beside bipact: "make" builds both '// &
+          'where HDF5 is there ("make deps" installs it), "make install" copies both')
+    end if
   end subroutine need_storage
+
+  !> A run that fails before its first step has no log and no tables; its summary says why.
+  subroutine tell_failed_start(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    type(status_t) :: folder
+    type(totals_t) :: totals
+    call make_folder(run%folder, folder)
+    if (failed(folder)) return
+    call find_totals(run, totals)
+    call write_run_summary(run, totals, status)
+  end subroutine tell_failed_start
 
   subroutine compute(arguments, run, status)
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     type(status_t) :: closing, last_frames
-    character(:), allocatable :: ending
     call run%timers%enter(phase_output)
     call make_folder(run%folder, status)
     if (failed(status)) return
     call start_storage(arguments, run, status)
     if (failed(status)) return
+    call remove_run_summary(run%folder)
     call open_log(run, status)
     call open_tables(run%tables, run%model, run%folder, run%scheme%has_acceleration, &
         allocated(run%restarted), status)
@@ -183,10 +205,7 @@ contains
     call watch_signals(run%plan%restarts .and. run%model%requests%restart%on_signal)
     call go_through_steps(run, status)
     call run%timers%enter(phase_output)
-    ending = 'failed'
-    if (status%code == status_ok) ending = 'done'
-    if (status%code == status_stopped) ending = 'stopped'
-    call close_tables(run%tables, ending, run%state%cycle, closing)
+    call close_tables(run%tables, ending_of(status), run%state%cycle, closing)
     if (run%plan%fields) call end_segment(run, last_frames)
     call run%timers%enter(phase_other)
     if (.not. failed(closing)) closing = last_frames

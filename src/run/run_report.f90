@@ -14,6 +14,7 @@ module run_report
   use deck_problems, only: add_note, add_warning
   use run_data, only: run_t
   use run_plan, only: plan_line
+  use run_summary, only: totals_t, find_totals, write_run_summary
   implicit none
   private
   public :: open_log, close_log, write_plan
@@ -73,12 +74,15 @@ contains
     end do
   end subroutine write_plan
 
-  !> Notes, warnings and the closing summary into the log, the summary on the screen too.
+  !> Notes, warnings and the closing summary into the log, the summary on the screen too; then
+  !> summary.json with the same numbers.
   subroutine close_log(run, ending)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: ending
+    type(totals_t) :: totals
     integer :: k
     call collect_warnings(run)
+    call find_totals(run, totals)
     do k = 1, run%deck%problems%note_count
       write (run%log_unit, '(a)') 'NOTE '//run%deck%problems%note(k)%text
     end do
@@ -86,11 +90,12 @@ contains
       write (run%log_unit, '(a)') 'WARNING '//run%deck%problems%warning(k)%text
     end do
     if (failed(ending)) write (run%log_unit, '(a)') 'FAILED '//status_text(ending)
-    call write_summary(run, run%log_unit)
+    call write_summary(run, totals, run%log_unit)
     call write_phases(run, run%log_unit)
     call close_text(join_path(run%folder, 'bipact.log'), run%log_unit, ending)
+    call write_run_summary(run, totals, ending)
     if (run%quiet) return
-    call write_summary(run, output_unit)
+    call write_summary(run, totals, output_unit)
   end subroutine close_log
 
   subroutine collect_warnings(run)
@@ -139,14 +144,13 @@ contains
   end subroutine note_touches
 
   !> Steps, counts, ledger, contact certificate.
-  subroutine write_summary(run, unit)
+  subroutine write_summary(run, totals, unit)
     type(run_t), intent(in) :: run
+    type(totals_t), intent(in) :: totals
     integer, intent(in) :: unit
-    real(wp) :: cpu
-    call cpu_time(cpu)
     associate (l => run%ledger, c => run%contact%tally)
       write (unit, '(a)') 'steps '//to_text(run%state%cycle)//', time '// &
-          to_text(run%state%time)//', CPU '//to_text(cpu)//' s'
+          to_text(run%state%time)//', CPU '//to_text(totals%cpu)//' s'
       write (unit, '(a)') 'factorisations '//to_text(run%factors)//', solves '// &
           to_text(run%solves)//', contact searches '//to_text(c%searches)// &
           ', contact solves '//to_text(c%solves)//', sweeps '//to_text(c%sweeps)
@@ -158,7 +162,7 @@ contains
           to_text(l%damping)//'; unsolved '//to_text(l%contact%unsolved)
       write (unit, '(a)') '  ledger residual '//to_text(l%residual)//' (worst '// &
           to_text(l%worst_residual)//'), ratio '//to_text(l%ratio)
-      if (run%plan%contact) call write_rows_by_kind(run%contact, unit)
+      if (run%plan%contact) call write_rows_by_kind(run%contact, totals, unit)
       if (run%plan%contact) write (unit, '(a)') 'contact: worst error '// &
           to_text(c%worst%error)//', eta '//to_text(c%worst%eta)//', penetration/edge '// &
           to_text(c%overlap_share)//', certificate '// &
@@ -168,21 +172,17 @@ contains
         ' in '//to_text(run%fields%segment)//' field files'
     if (run%plan%restarts) write (unit, '(a)') 'restart files written '// &
         to_text(run%restart_files)
-    write (unit, '(a)') 'peak memory '//peak_memory()
+    write (unit, '(a)') 'peak memory '//memory_text(totals)
     write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
         to_text(run%deck%problems%warning_count)
   end subroutine write_summary
 
   !> How many rows of which kind the contact solves had, and what was found missing.
-  subroutine write_rows_by_kind(contact, unit)
+  subroutine write_rows_by_kind(contact, totals, unit)
     type(contact_t), intent(in) :: contact
+    type(totals_t), intent(in) :: totals
     integer, intent(in) :: unit
     character(:), allocatable :: line
-    integer :: p, short
-    short = 0
-    do p = 1, size(contact%pairing)
-      short = short + contact%pairing(p)%item%purse%short_steps
-    end do
     associate (t => contact%tally)
       line = 'rows in contact solves: edge '//to_text(t%rows(row_edge))//', vertex '// &
           to_text(t%rows(row_vertex))//', second '//to_text(t%rows(row_second))//', wall '// &
@@ -190,29 +190,18 @@ contains
       write (unit, '(a)') line
       write (unit, '(a)') '  late rows '//to_text(t%late_rows)//', frames redone '// &
           to_text(t%new_frames)//', repeats for the purse '//to_text(t%repeats)// &
-          ', steps with a short purse '//to_text(short)//', steps that outran a list '// &
-          to_text(t%redone)
+          ', steps with a short purse '//to_text(totals%short_steps)// &
+          ', steps that outran a list '//to_text(t%redone)
     end associate
   end subroutine write_rows_by_kind
 
-  !> Largest resident memory so far as the system tells it; "unknown" where it does not.
-  function peak_memory() result(text)
+  !> The largest resident memory; "unknown" where the system does not tell it.
+  pure function memory_text(totals) result(text)
+    type(totals_t), intent(in) :: totals
     character(:), allocatable :: text
-    character(80) :: line
-    integer :: unit, ios
     text = 'unknown'
-    open (newunit=unit, file='/proc/self/status', action='read', status='old', iostat=ios)
-    if (ios /= 0) return
-    do while (ios == 0)
-      read (unit, '(a)', iostat=ios) line
-      if (ios == 0 .and. line(1:6) == 'VmHWM:') then
-        text = trim(adjustl(line(7:)))
-        if (text(1:1) == achar(9)) text = trim(adjustl(text(2:)))
-        exit
-      end if
-    end do
-    close (unit)
-  end function peak_memory
+    if (totals%peak_memory >= 0_i8) text = to_text(totals%peak_memory/1024_i8)//' kB'
+  end function memory_text
 
   !> Where the time went: seconds by the monotonic clock and number of entries.
   subroutine write_phases(run, unit)
