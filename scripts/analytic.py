@@ -18,6 +18,7 @@ import bisect
 import sys
 from dataclasses import dataclass
 
+import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
 # ---------------------------------------------------------------- closed forms

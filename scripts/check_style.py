@@ -5,10 +5,13 @@ Prints one line per problem (file:line: message), then the procedure lengths; ex
 there is a problem. It reads Fortran by statements, not by grammar: where it cannot tell, it
 says nothing."""
 
+import argparse
 import re
 import subprocess
 import sys
 from pathlib import Path
+
+import startup
 
 MAX_COLUMNS = 96
 MAX_FILE_LINES = 500
@@ -333,7 +336,11 @@ def check_file(root, path):
 
 
 def main():
-    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("root", nargs="?", type=Path, default=Path(startup.ROOT), metavar="ROOT")
+    root = parser.parse_args().root.resolve()
     for path in project_files(root):
         check_file(root, path)
     for path, line, message in sorted(problems):

@@ -41,10 +41,10 @@ import sys
 import tempfile
 import time
 
+import startup
+
 import numpy as np
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
 import collide_deck
 import collide_judge as judge
 import collide_report
@@ -351,9 +351,8 @@ def arguments():
     add("--symmetry", action="store_true", default=True, help="with the twins (default)")
     add("--keep", metavar="DIR", help="decks of failed runs (OUT/failed)")
     add("--fresh", action="store_true", help="forget earlier runs")
-    add("--out", metavar="DIR", default=os.path.join(ROOT, "build", "collide"))
-    program = os.environ.get("BIPACT", os.path.join(ROOT, "bin", "bipact"))
-    add("--bipact", metavar="PATH", default=program)
+    add("--out", metavar="DIR", default=os.path.join(startup.ROOT, "build", "collide"))
+    add("--bipact", metavar="PATH", default=startup.program())
     a = parser.parse_args()
     a.bipact = os.path.abspath(a.bipact)
     a.keep = os.path.abspath(a.keep or os.path.join(a.out, "failed"))

@@ -29,6 +29,7 @@ import os
 import re
 import sys
 
+import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
 from analytic import impact_of

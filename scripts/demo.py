@@ -13,7 +13,8 @@ import resource
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+import startup
+
 DECKS = ("newmark", "theta", "theta_dispersion")
 MASS = {
     "newmark": ("Newmark", "consistent"),
@@ -157,13 +158,13 @@ def main(argv=None):
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--bin", default=os.path.join(ROOT, "bin", "bipact"), help="program")
+    parser.add_argument("--bin", default=startup.program(), help="program")
     parser.add_argument(
         "--decks",
-        default=os.path.join(ROOT, "input", "two_bars"),
+        default=os.path.join(startup.ROOT, "input", "two_bars"),
         help="directory of the decks",
     )
-    parser.add_argument("--out", default=os.path.join(ROOT, "demo.out"), help="results")
+    parser.add_argument("--out", default="demo.out", help="results")
     a = parser.parse_args(argv)
     try:
         results = run_all(a)

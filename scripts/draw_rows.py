@@ -7,12 +7,13 @@ notch with two rows for one node, a vertex row whose normal the free motion choo
 import argparse
 import os
 
+import startup
+
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 UPPER, LOWER, EDGE = "#dce6f2", "#eee6d8", "#444444"
 EXACT, ALLOWANCE, NORMAL, MOTION = "#b3201f", "#1f5fb3", "#b3201f", "#2a7f2a"
 
@@ -126,7 +127,7 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    default = os.path.join(ROOT, "doc", "figures", "contact_rows.png")
+    default = os.path.join(startup.ROOT, "doc", "figures", "contact_rows.png")
     parser.add_argument("-o", metavar="FILE", default=default)
     a = parser.parse_args()
     figure, axes = plt.subplots(2, 2, figsize=(10.5, 7.2))

@@ -12,8 +12,9 @@ orthogonal. With m = mean of the diagonal of W:
     eta        sum |mu r_n |u_t| + r.u| / (|r| max(|u|, |q|))
 """
 
-import sys
+import argparse
 
+import startup  # noqa: F401  before what is no part of Python
 import h5py
 import numpy as np
 
@@ -116,8 +117,16 @@ def solution(path, problem):
         return np.ravel(file["solution/r"]).reshape(problem.q.shape)
 
 
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("problem", metavar="PROBLEM.hdf5")
+    parser.add_argument("solution", metavar="SOLUTION.hdf5")
+    a = parser.parse_args()
+    given = Problem(a.problem)
+    print("%.3e %.3e %.3e" % errors(given, solution(a.solution, given)))
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    given = Problem(sys.argv[1])
-    print("%.3e %.3e %.3e" % errors(given, solution(sys.argv[2], given)))
+    main()

@@ -15,6 +15,7 @@ import glob
 import os
 import sys
 
+import startup  # noqa: F401  before what is no part of Python
 import h5py
 import numpy as np
 
@@ -59,7 +60,11 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("folder")
-    run = Fields(parser.parse_args().folder)
+    try:
+        run = Fields(parser.parse_args().folder)
+    except OSError as problem:
+        print("fields.py: %s" % problem, file=sys.stderr)
+        return 1
     print("%d files, %d frames" % (len(run.paths), len(run.times)), end="")
     if len(run.times):
         print(", time %.6g to %.6g" % (run.times[0], run.times[-1]), end="")

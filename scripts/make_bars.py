@@ -27,6 +27,8 @@ import sys
 from fractions import Fraction
 from types import SimpleNamespace
 
+import startup  # noqa: F401  before what is no part of Python
+
 DEFAULTS = dict(
     nx=100,
     nx2=None,

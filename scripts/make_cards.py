@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+import startup
 
 NODES = [(10 * j + i + 1, 1.0 * i, -0.5 + 0.5 * j) for j in (0, 1) for i in range(4)]  # base
 NODES += [
@@ -238,7 +238,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("-o", metavar="FILE", help="deck (default: to stdout)")
-    parser.add_argument("--bin", default=os.path.join(ROOT, "bin", "bipact"), help="program")
+    parser.add_argument("--bin", default=startup.program(), help="program")
     a = parser.parse_args()
     text = deck(a.bin)
     if a.o:

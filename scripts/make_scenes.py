@@ -17,10 +17,8 @@ write(path, scene, ...) returns the data that a comparison needs.
 import argparse
 import inspect
 import math
-import os
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import startup  # noqa: F401  before what is no part of Python
 
 
 def turned(o, x, y):

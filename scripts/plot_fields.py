@@ -13,6 +13,7 @@ import argparse
 import os
 import sys
 
+import startup  # noqa: F401  before what is no part of Python
 import matplotlib
 
 matplotlib.use("Agg")

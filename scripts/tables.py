@@ -18,6 +18,7 @@ import os
 import re
 import sys
 
+import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
 INTEGER_COLUMNS = frozenset(
