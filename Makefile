@@ -28,14 +28,14 @@ Q := $(if $(V),,@)
 .DEFAULT_GOAL := all
 .PHONY: all no-hdf5 demo test test-unit test-programs bench-programs examples example-programs check-style doc deps venv debug \
         sanitize fuzz collide bench bench-features bench-fclib report stability \
-        clean distclean help FORCE
+        install uninstall clean distclean help FORCE
 
 # ---------------------------------------------------------------- targets for people
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
 light := demo test test-unit examples check-style doc deps venv debug sanitize fuzz collide bench bench-features bench-fclib \
-         report stability clean distclean help
+         report stability install uninstall clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
 all: $(BIN) $(if $(wildcard src/hdf5/*.f90),$(if $(HDF5_MODULES),$(STORE_BIN) $(FCLIB_BIN),no-hdf5)) ## build bin/bipact, bin/bipact-hdf5, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
@@ -111,6 +111,13 @@ deps: ## install compiler and libraries, if any is missing
 
 venv: deps ## make .venv with the Python packages of requirements.txt
 	@PYTHON="$(PYTHON3)" scripts/setup-venv.sh
+
+install: ## build, then install below PREFIX (/usr/local), for packagers below DESTDIR/PREFIX
+	+@$(again) all
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" FLAVOUR=$(FLAVOUR) scripts/install.sh
+
+uninstall: ## remove what make install put there
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" FLAVOUR=$(FLAVOUR) scripts/install.sh --remove
 
 clean: ## remove what was built
 	rm -rf build bin

@@ -13,7 +13,7 @@ program fclib_main
   use hdf5_file, only: start_library
   use fclib_problem, only: problem_t, read_problem, write_problem, write_solution
   implicit none
-  character(:), allocatable :: usage
+  character(*), parameter :: help_hint = 'bipact-fclib --help'
   type(cone_options_t) :: options
   type(problem_t) :: problem
   type(cone_work_t) :: work
@@ -23,15 +23,6 @@ program fclib_main
   real(wp), allocatable :: r(:, :)
   real(wp) :: start, finish, seconds
 
-  usage = join([character(100) :: &
-      'usage: bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--local L]'// &
-      ' [--max-time SECONDS] [-o FILE]', &
-      '       bipact-fclib PROBLEM --convert FILE.hdf5', &
-      '  solvers: '//join(solver_names, ' ')//'; tolerance 1e-8 unless given;', &
-      '  local solvers (one contact in a sweep): '//join(local_names, ' ')//';', &
-      '  -o writes /solution (u, r, v) and /errors (HDF5)', &
-      '  PROBLEM may be a contact_N.txt of bipact; --convert writes it as FCLIB'], &
-      new_line('a'))
   options%tolerance = 1.0e-8_wp
   options%warm_start = .false.
   options%max_sweeps = 100000
@@ -73,8 +64,8 @@ contains
     do while (i <= command_argument_count())
       word = argument(i)
       select case (word)
-      case ('--help')
-        write (output_unit, '(a)') usage
+      case ('--help', '-h')
+        call write_usage()
         call leave(0)
       case ('--version')
         write (output_unit, '(a)') 'bipact-fclib '//version
@@ -88,12 +79,12 @@ contains
       case ('--solver')
         options%solver = find_solver(argument(i + 1))
         if (options%solver == 0) call fail(status, status_deck, &
-            'unknown solver "'//argument(i + 1)//'"', hint=usage)
+            'unknown solver "'//argument(i + 1)//'"', hint=help_hint)
         i = i + 1
       case ('--local')
         options%local = local_solver(argument(i + 1))
         if (options%local == 0) call fail(status, status_deck, &
-            'unknown local solver "'//argument(i + 1)//'"', hint=usage)
+            'unknown local solver "'//argument(i + 1)//'"', hint=help_hint)
         i = i + 1
       case ('--convert')
         converted = argument(i + 1)
@@ -103,14 +94,41 @@ contains
         i = i + 1
       case default
         if (word(1:1) == '-' .or. allocated(input)) call fail(status, status_deck, &
-            'unknown argument "'//word//'"', hint=usage)
+            'unknown argument "'//word//'"', hint=help_hint)
         input = word
       end select
       i = i + 1
     end do
     if (.not. allocated(input)) call fail(status, status_deck, 'no problem was named', &
-        hint=usage)
+        hint=help_hint)
   end subroutine read_arguments
+
+  !> The command line, in the layout of bipact --help, from which the manual page is made too.
+  subroutine write_usage()
+    character(84) :: line(20)
+    integer :: k
+    line = [character(84) :: &
+        'bipact-fclib PROBLEM.hdf5 [--tol T] [--solver S] [--local L]', &
+        '             [--max-time SECONDS] [-o FILE]', &
+        'bipact-fclib PROBLEM --convert FILE.hdf5', &
+        'bipact-fclib --help | --version', '', &
+        '  PROBLEM              a contact problem: FCLIB (HDF5), or contact_N.txt of bipact', &
+        '  --tol T              tolerance on error and eta; 1e-8 unless given', &
+        '  --solver S           '//join(solver_names, ', '), &
+        '  --local L            solver of one contact in a sweep: '//join(local_names, ', '), &
+        '  --max-time SECONDS   gives up after that much processor time', &
+        '  -o FILE              writes /solution (u, r, v) and /errors (HDF5)', &
+        '  --convert FILE.hdf5  writes the problem as FCLIB; nothing is solved', &
+        '  --help               prints this', &
+        '  --version            prints the version', '', &
+        'exit code: 0 solved, 1 not to tolerance, 2 an argument or a problem that cannot', &
+        '           be used, 3 file or system error', '', &
+        'Prints a line of names and a line of figures: error and eta of the solution are', &
+        'those of doc/contact-solver.md.']
+    do k = 1, size(line)
+      write (output_unit, '(a)') trim(line(k))
+    end do
+  end subroutine write_usage
 
   subroutine read_number(name, word, value)
     character(*), intent(in) :: name, word
@@ -119,7 +137,7 @@ contains
     read (word, *, iostat=error) value
     if (error /= 0) value = -1.0_wp
     if (.not. value > zero) call fail(status, status_deck, &
-        name//': expected a positive number, found "'//word//'"', hint=usage)
+        name//': expected a positive number, found "'//word//'"', hint=help_hint)
   end subroutine read_number
 
   function argument(i) result(word)
