@@ -339,7 +339,9 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("root", nargs="?", type=Path, default=Path(startup.ROOT), metavar="ROOT")
+    parser.add_argument(
+        "root", nargs="?", type=Path, default=Path(startup.ROOT), metavar="ROOT"
+    )
     root = parser.parse_args().root.resolve()
     for path in project_files(root):
         check_file(root, path)

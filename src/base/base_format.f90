@@ -9,7 +9,6 @@ module base_format
   private
   integer, parameter :: qp = selected_real_kind(33)
   integer, parameter :: range10 = 280
-  integer(i8), parameter :: beyond_digits = 10_i8**17
   real(wp), parameter :: splitter = 134217729.0_wp   !< 2^27 + 1
   integer, parameter, public :: real_width = 24
 
@@ -54,60 +53,50 @@ contains
     type(real_writer_t), intent(in) :: writer
     real(wp), intent(in) :: x
     character(real_width), intent(out) :: text
+    integer(i8), parameter :: beyond = 10_i8**17
     integer(i8) :: digits
     integer :: e
-    if (is_special(x)) then
-      call put_special(x, text)
+    real(wp) :: a
+    a = abs(x)
+    if (a <= 0.0_wp) then
+      text = ' 0.0000000000000000E+000'
+    else if (.not. is_ordinary(a)) then
+      write (text, '(es24.16e3)') x
     else
-      e = decimal_exponent(x)
-      digits = scaled_digits(abs(x), writer%high(16 - e), writer%low(16 - e))
-      if (digits >= beyond_digits) then
+      e = decimal_exponent(a)
+      digits = scaled_digits(a, writer%high(16 - e), writer%low(16 - e))
+      if (digits >= beyond) then
         e = e + 1
-        digits = scaled_digits(abs(x), writer%high(16 - e), writer%low(16 - e))
+        digits = scaled_digits(a, writer%high(16 - e), writer%low(16 - e))
       end if
       call put_digits(digits, e, x < 0, text)
     end if
   end subroutine put_real
 
-  !> The same without a table of powers: for a few numbers, which do not pay for one.
+  !> The same without a table of all powers, for a few numbers, which do not pay for one.
   pure subroutine put_one_real(x, text)
     real(wp), intent(in) :: x
     character(real_width), intent(out) :: text
-    real(wp) :: high, low
-    integer(i8) :: digits
-    integer :: e
-    if (is_special(x)) then
-      call put_special(x, text)
-    else
-      e = decimal_exponent(x)
-      call power_of_ten(16 - e, high, low)
-      digits = scaled_digits(abs(x), high, low)
-      if (digits >= beyond_digits) then
-        e = e + 1
-        call power_of_ten(16 - e, high, low)
-        digits = scaled_digits(abs(x), high, low)
-      end if
-      call put_digits(digits, e, x < 0, text)
+    type(real_writer_t) :: writer
+    integer :: k
+    if (is_ordinary(abs(x))) then
+      do k = 15 - decimal_exponent(abs(x)), 16 - decimal_exponent(abs(x))
+        call power_of_ten(k, writer%high(k), writer%low(k))
+      end do
     end if
+    call put_real(writer, x, text)
   end subroutine put_one_real
 
-  pure logical function is_special(x)
-    real(wp), intent(in) :: x
-    is_special = .not. (abs(x) > 1.0e-260_wp .and. abs(x) < 1.0e260_wp)
-  end function is_special
+  pure logical function is_ordinary(a)
+    real(wp), intent(in) :: a
+    is_ordinary = a > 1.0e-260_wp .and. a < 1.0e260_wp
+  end function is_ordinary
 
-  pure subroutine put_special(x, text)
-    real(wp), intent(in) :: x
-    character(real_width), intent(out) :: text
-    text = ' 0.0000000000000000E+000'
-    if (.not. abs(x) <= 0.0_wp) write (text, '(es24.16e3)') x
-  end subroutine put_special
-
-  !> The exponent of ten of x, or one less.
-  pure integer function decimal_exponent(x)
-    real(wp), intent(in) :: x
+  !> The exponent of ten of a > 0, or one less.
+  pure integer function decimal_exponent(a)
+    real(wp), intent(in) :: a
     real(wp), parameter :: log10_of_2 = 0.30102999566398120_wp
-    decimal_exponent = floor((exponent(x) - 1)*log10_of_2)
+    decimal_exponent = floor((exponent(a) - 1)*log10_of_2)
   end function decimal_exponent
 
   !> a*(high + low), a power of ten, rounded to an integer.

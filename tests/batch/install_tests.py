@@ -1,6 +1,6 @@
 """make install into an empty DESTDIR: what is there, its manual pages and completion; every
-command that README.md and the pages of doc/ show for users runs from another folder, by its path
-and by a link; bipact without bipact-hdf5 says so; make uninstall leaves nothing behind.
+command that README.md and the pages of doc/ show for users runs from another folder, by its
+path and by a link; bipact without bipact-hdf5 says so; make uninstall leaves nothing behind.
 
 A page of doc/ names its files by words in capitals and by the names in PLACES, below."""
 
@@ -65,7 +65,9 @@ def files(folder):
 def installed():
     """Programs, pages, completion, scripts, decks; nothing outside PREFIX, nothing secret."""
     make("install")
-    check(os.listdir(DEST) == ["opt"] and os.listdir(DEST + "/opt") == ["bi pact"], "PREFIX only")
+    check(
+        os.listdir(DEST) == ["opt"] and os.listdir(DEST + "/opt") == ["bi pact"], "PREFIX only"
+    )
     found = set(files(TOP))
     wanted = {"bin/bipact" + SUFFIX, "share/man/man1/bipact.1"}
     if HDF5:
@@ -79,8 +81,10 @@ def installed():
     check(wanted <= found, "missing: %s" % sorted(wanted - found))
     for path in found:
         mode = os.stat(os.path.join(TOP, path)).st_mode & 0o777
-        runs = path.startswith("bin/") or path.startswith("share/bipact/scripts/") and (
-            os.access(os.path.join(ROOT, "scripts", os.path.basename(path)), os.X_OK)
+        runs = (
+            path.startswith("bin/")
+            or path.startswith("share/bipact/scripts/")
+            and (os.access(os.path.join(ROOT, "scripts", os.path.basename(path)), os.X_OK))
         )
         check(mode == (0o755 if runs else 0o644), "%s: mode %o" % (path, mode))
 
@@ -100,7 +104,10 @@ def pages():
             check("\n.SH %s\n" % section in text, "%s.1 lacks %s" % (name, section))
         if shutil.which("groff"):
             code, output, errors = call("groff", "-ww", "-man", "-Tascii", path)
-            check(code == 0 and not errors and "DECK" in output or name != "bipact", "groff: " + errors)
+            check(
+                code == 0 and not errors and "DECK" in output or name != "bipact",
+                "groff: " + errors,
+            )
 
 
 def completed(*words):
@@ -131,10 +138,8 @@ def prepare():
     """The folder that the commands run in: the deck of the README, one with fields, restart
     files and parameters, a contact problem."""
     os.makedirs(WORK)
-    with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
-        shown = re.search(r"(?ms)^    \*KEYWORD.*?^    \*END\n", file.read()).group()
     with open(os.path.join(WORK, "first.k"), "w") as file:
-        file.write(re.sub("(?m)^    ", "", shown))
+        file.write(call(os.path.join(ROOT, "tests", "support", "first_deck.sh"))[1])
     with open(os.path.join(ROOT, "input", "two_bars", "theta.k")) as file:
         text = file.read()
     cards = "*BIPACT_CONTACT\nAUTO,\n,,,,1100\n"
@@ -179,8 +184,9 @@ def runnable(command):
     if not HDF5 and (words[0].endswith("fclib") or {"RUN", "--restart"} & set(words)):
         return None
     for place in sorted(PLACES, key=len, reverse=True):
-        words = [re.sub(r"(?<![\w.])%s(?![\w.])" % re.escape(place), PLACES[place], w)
-                 for w in words]
+        words = [
+            re.sub(r"(?<![\w.])%s(?![\w.])" % re.escape(place), PLACES[place], w) for w in words
+        ]
     return [word for word in words if word != "..."]
 
 
@@ -194,12 +200,14 @@ def place_of(word):
 
 
 def commands():
-    """Each command twice: by its path with the Python that has the packages, and by a link, with
-    one that has none, so that the .venv of the installation is found."""
+    """Each command twice: by its path with the Python that has the packages, and by a link,
+    with one that has none, so that the .venv of the installation is found."""
     os.mkdir(LINKS)
     os.symlink(os.path.realpath(os.path.join(ROOT, ".venv")), os.path.join(SHARE, ".venv"))
     bare = dict(os.environ, PATH=os.path.join(BARE, "bin") + os.pathsep + os.environ["PATH"])
-    full = dict(os.environ, PATH=os.path.dirname(sys.executable) + os.pathsep + os.environ["PATH"])
+    full = dict(
+        os.environ, PATH=os.path.dirname(sys.executable) + os.pathsep + os.environ["PATH"]
+    )
     del bare["BIPACT"], full["BIPACT"]
     seen = {}
     for page, command in shown_commands():

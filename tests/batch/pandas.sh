@@ -8,6 +8,6 @@ if ! VENV=.venv-pandas REQUIREMENTS=requirements-pandas.txt scripts/setup-venv.s
   exit 77
 fi
 cd "$TMP"
-sed -n '/^    \*KEYWORD/,/^    \*END/s/^    //p' "$ROOT/README.md" >first.k
+"$ROOT/tests/support/first_deck.sh" >first.k
 "$BIPACT" first.k --quiet
 exec "$ROOT/.venv-pandas/bin/python" "$ROOT/tests/batch/snippets.py" doc/output.md pandas

@@ -22,7 +22,11 @@ def call(*command, **options):
     """(exit code, output, messages) of a command in TMP/elsewhere."""
     options = dict(dict(stdout=subprocess.PIPE, env=ENVIRONMENT), **options)
     done = subprocess.run(
-        command, cwd=os.path.join(TMP, "elsewhere"), stderr=subprocess.PIPE, text=True, **options
+        command,
+        cwd=os.path.join(TMP, "elsewhere"),
+        stderr=subprocess.PIPE,
+        text=True,
+        **options
     )
     return done.returncode, done.stdout, done.stderr
 
@@ -44,7 +48,9 @@ def programs():
         runs = os.access(os.path.join(SCRIPTS, name), os.X_OK)
         starts = "__main__" in text and name.endswith(".py") and name != "startup.py"
         if name.endswith((".py", ".sh")):
-            check(runs == text.startswith("#!"), "%s: shebang and executable, or neither" % name)
+            check(
+                runs == text.startswith("#!"), "%s: shebang and executable, or neither" % name
+            )
             check(runs or not starts, "%s: can be started, so it is executable" % name)
         if not starts:
             continue

@@ -1,6 +1,6 @@
-"""The Python that a page shows, run where README's first deck was run: snippets.py PAGE WORD runs
-each block of PAGE that contains WORD, and checks that every column that it reads has the numbers
-of the table, bit for bit."""
+"""The Python that a page shows, run where README's first deck was run: snippets.py PAGE WORD
+runs each block of PAGE that contains WORD, and checks that every column that it reads has the
+numbers of the table, bit for bit."""
 
 import os
 import re
@@ -30,8 +30,11 @@ def main():
         found = {}
         exec(block, found)
         table = found.get("table")
-        columns = {n: table[n] for n in table.columns} if table is not None else {
-            n: found[n] for n in truth if n in found}
+        columns = (
+            {n: table[n] for n in table.columns}
+            if table is not None
+            else {n: found[n] for n in truth if n in found}
+        )
         for name, column in columns.items():
             same = tuple(float(x) for x in column) == truth.get(name)
             passed, failed = passed + same, failed + (not same)

@@ -53,8 +53,14 @@ def members(value, path=""):
     """Paths of all members that hold no others, as doc/output.md writes them."""
     if isinstance(value, dict) and value:
         for name, item in value.items():
-            yield from members(item, "NAME".join((path + ".", "")) if path in SPREAD else (
-                path + "." + name if path else name))
+            yield from members(
+                item,
+                (
+                    "NAME".join((path + ".", ""))
+                    if path in SPREAD
+                    else (path + "." + name if path else name)
+                ),
+            )
     elif isinstance(value, list) and path != "warnings":
         for item in value:
             yield from members(item, path + "[]")
@@ -88,8 +94,10 @@ def done():
     summary, log = summary_of(folder), log_of(folder)
     check(code == 0 and summary["status"] == "done", "done: %d" % code)
     check(summary["exit_code"] == 0 and summary["message"] is None, "done: code, message")
-    check(set(members(summary)) == documented(), "members as in doc/output.md: %s" % (
-        set(members(summary)) ^ documented()))
+    check(
+        set(members(summary)) == documented(),
+        "members as in doc/output.md: %s" % (set(members(summary)) ^ documented()),
+    )
     last = table(folder, "glstat")
     for name, value in summary["energies"].items():
         if name != "worst_residual":
@@ -108,7 +116,9 @@ def done():
     for text, where in ((log, "log"), (screen, "screen")):
         cpu = float(re.search(r"CPU (\S+) s", text).group(1))
         check(abs(summary["cpu"] - cpu) <= 1e-5 * cpu, "cpu as on the %s (6 digits)" % where)
-        check("peak memory %d kB" % (summary["peak_memory"] // 1024) in text, "memory, " + where)
+        check(
+            "peak memory %d kB" % (summary["peak_memory"] // 1024) in text, "memory, " + where
+        )
     phases = log.split("phase  ")[1].strip().split("\n")[1:]
     for line, (name, phase) in zip(phases, summary["phases"].items(), strict=True):
         check(line[:30].strip() == name and int(line[42:]) == phase["calls"], "phase " + name)
@@ -144,8 +154,11 @@ def failed():
     check(summary["exit_code"] == 1, "its code")
     check("bipact: " + summary["message"] == errors.strip(), "its message: " + errors)
     check(0 < summary["steps"] < 100000, "its step")
-    check("# end: failed, cycle %d" % summary["steps"] in open(
-        os.path.join(folder, "glstat.tab")).read(), "the step of the tables")
+    check(
+        "# end: failed, cycle %d" % summary["steps"]
+        in open(os.path.join(folder, "glstat.tab")).read(),
+        "the step of the tables",
+    )
     # Newmark finds no first acceleration of a node that has a load and no mass.
     load = "*LOAD_NODE_POINT\n%d,1,1,1.0\n*DEFINE_CURVE\n1,\n0.0,1.0\n1.0,1.0\n"
     node = make_bars.describe(nx=20, courant=0.5)["face1"][0]
@@ -162,9 +175,15 @@ def texts():
     deck, folder = scene("texts")
     with open(deck, "rb") as file:
         data = file.read()
-    title = bytes(k for k in range(1, 80) if k not in (10, 13, 36, 42)) 
-    for k, line in enumerate((b'"\\' + title, bytes(range(128, 208)), bytes(range(176, 256)),
-                              "µ = 0.3 – größer".encode())):
+    title = bytes(k for k in range(1, 80) if k not in (10, 13, 36, 42))
+    for k, line in enumerate(
+        (
+            b'"\\' + title,
+            bytes(range(128, 208)),
+            bytes(range(176, 256)),
+            "µ = 0.3 – größer".encode(),
+        )
+    ):
         changed = re.sub(rb"(?<=\*TITLE\n).*", lambda m: line, data)
         path = os.path.join(TMP.encode(), b"text\xfc%d.k" % k)
         with open(path, "wb") as file:
@@ -193,13 +212,15 @@ def without_contact():
 
 
 def old_ones():
-    """A deck error leaves the folder as it was; a run that is killed leaves no summary, not even
-    of an earlier run; what cannot be written is a failure, and there is no half of it."""
+    """A deck error leaves the folder as it was; a run that is killed leaves no summary, not
+    even of an earlier run; what cannot be written is a failure, and there is no half of it."""
     deck, folder = scene("old", nx=80, courant=0.02)
     code, _, _ = bipact(deck, folder, "--quiet", "-D", "tend=0.001")
     before = open(os.path.join(folder, "summary.json")).read()
     code, _, _ = bipact(deck, folder, "--quiet", "-D", "nosuch=1")
-    check(code == 2 and open(os.path.join(folder, "summary.json")).read() == before, "untouched")
+    check(
+        code == 2 and open(os.path.join(folder, "summary.json")).read() == before, "untouched"
+    )
     code, _, _ = bipact(deck, os.path.join(TMP, "new"), "--quiet", "-D", "nosuch=1")
     check(code == 2 and not exists(os.path.join(TMP, "new"), ""), "a deck error writes nothing")
     child = subprocess.Popen([BIPACT, deck, "-o", folder, "--quiet"])
@@ -211,7 +232,9 @@ def old_ones():
     code, errors, _ = bipact(deck, folder, "--quiet", "-D", "tend=0.001")
     check(code == 3 and "summary.tmp" in errors, "cannot be written: %d %s" % (code, errors))
     check(errors.count("bipact: ") == 1 and not exists(folder), "one message, no summary")
-    check("# end: done" in open(os.path.join(folder, "glstat.tab")).read(), "the tables are whole")
+    check(
+        "# end: done" in open(os.path.join(folder, "glstat.tab")).read(), "the tables are whole"
+    )
 
 
 def stopped():

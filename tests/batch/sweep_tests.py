@@ -1,5 +1,7 @@
-"""scripts/sweep.py: all combinations, one row each, failed ones too; what is finished is not run
-again unless version, values, deck or includes changed; several at once; interrupted it goes on."""
+"""scripts/sweep.py: all combinations, one row each, failed ones too; what is finished is not
+run again unless version, values, deck or includes changed; several at once; interrupted it goes
+on.
+"""
 
 import csv
 import os
@@ -46,8 +48,8 @@ def ran(errors):
 
 
 def combinations():
-    """Two values by three, one of which is refused by the deck: one row each, in order, with the
-    numbers of the run; exit code 1 for the refused ones."""
+    """Two values by three, one of which is refused by the deck: one row each, in order, with
+    the numbers of the run; exit code 1 for the refused ones."""
     make_bars.write(DECK, nx=10, courant=0.5, split=True, tables=["glstat"])
     code, output, errors = call("bars.k", "mu=0.0,0.3", "dt=1e-4,5e-5,-1", "--jobs", "3")
     found = rows()
@@ -72,8 +74,8 @@ def combinations():
 
 
 def again():
-    """Finished runs stay; a change of the deck, of an include, of the values, of the version, of
-    the summary, or --fresh makes them again."""
+    """Finished runs stay; a change of the deck, of an include, of the values, of the version,
+    of the summary, or --fresh makes them again."""
     words = ("bars.k", "mu=0.0,0.3", "dt=1e-4,5e-5")
     marks = [os.path.join(TMP, r["folder"], "glstat.tab") for r in rows() if r["dt"] != "-1"]
     times = [os.stat(path).st_mtime_ns for path in marks]
