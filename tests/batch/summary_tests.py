@@ -87,6 +87,31 @@ def scene(name, cards="", **options):
     return path, os.path.join(TMP, name)
 
 
+def compare_energies(summary, glstat):
+    """Time, steps and energies are those of the last row, bit for bit."""
+    for name, value in summary["energies"].items():
+        if name != "worst_residual":
+            check(value == glstat[name][-1], "energies.%s as in glstat" % name)
+    worst = summary["energies"]["worst_residual"]
+    check(worst == max(abs(glstat["residual"])), "worst residual")
+    check(summary["time"] == glstat["time"][-1], "time")
+    check(summary["steps"] == glstat.cycle, "steps")
+
+
+def every_term():
+    """A scene with loads, motions, walls, friction: no two terms of the ledger are equal."""
+    folder = os.path.join(TMP, "terms")
+    code, errors, _ = bipact(os.path.join(ROOT, "input", "cards", "every_keyword.k"), folder)
+    summary, glstat = summary_of(folder), table(folder, "glstat")
+    check(code == 0, errors)
+    compare_energies(summary, glstat)
+    terms = [v for n, v in summary["energies"].items() if v != 0.0 and "residual" not in n]
+    check(len(set(terms)) == len(terms) >= 9, "terms differ: %s" % summary["energies"])
+    depths = [summary["certificate"][n] for n in ("penetration", "penetration_per_edge")]
+    check(depths[0] >= max(table(folder, "sleout")["penetration"]) > 0.0, "penetration")
+    check(0.0 < depths[0] < depths[1], "edges are shorter than 1: %s" % depths)
+
+
 def done():
     """A run that ends: members, and each number against the table or the log."""
     deck, folder = scene("done", tables=["glstat", "sleout=step"], split=True)
@@ -98,12 +123,7 @@ def done():
         set(members(summary)) == documented(),
         "members as in doc/output.md: %s" % (set(members(summary)) ^ documented()),
     )
-    last = table(folder, "glstat")
-    for name, value in summary["energies"].items():
-        if name != "worst_residual":
-            check(value == last[name][-1], "energies.%s as in glstat" % name)
-    check(summary["energies"]["worst_residual"] == max(abs(last["residual"])), "worst residual")
-    check(summary["time"] == last["time"][-1] and summary["steps"] == last.cycle, "time, steps")
+    compare_energies(summary, table(folder, "glstat"))
     solves = table(folder, "sleout", contact=0)
     check(summary["certificate"]["error"] == max(solves["error"]), "worst error")
     check(summary["certificate"]["eta"] == max(solves["eta"]), "worst eta")
@@ -262,6 +282,6 @@ def stopped():
     check(again["steps"] > summary["steps"] > 0, "steps go on")
 
 
-for test in (done, warned, failed, texts, without_contact, old_ones, stopped):
+for test in (done, every_term, warned, failed, texts, without_contact, old_ones, stopped):
     test()
 finish()
