@@ -132,12 +132,27 @@ contains
     call json%close(']')
     call json%open('{', 'parameters')
     do k = 1, deck%parameters
-      if (any(deck%parameter(1:k - 1)%name == deck%parameter(k)%name)) cycle
+      if (.not. is_shown(deck, k)) cycle
       call json%put(trim(deck%parameter(k)%text), trim(deck%parameter(k)%name))
     end do
     call json%close('}')
     call json%close('}')
   end subroutine put_deck
+
+  !> Is a parameter the one to be named? Of those of one name it is that of all files, else the
+  !> first.
+  pure logical function is_shown(deck, k)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: k
+    integer :: other
+    is_shown = .false.
+    do other = 1, deck%parameters
+      if (other == k .or. deck%parameter(other)%name /= deck%parameter(k)%name) cycle
+      if (deck%parameter(other)%file == 0) return
+      if (other < k .and. deck%parameter(k)%file /= 0) return
+    end do
+    is_shown = .true.
+  end function is_shown
 
   subroutine put_scene(json, run)
     type(json_t), intent(inout) :: json

@@ -219,6 +219,25 @@ def texts():
         check(summary["deck"]["path"].endswith("text\xfc%d.k" % k), "a path in Latin-1")
 
 
+def parameters():
+    """Of two parameters of one name that of all files is named, one of an include alone too."""
+    include = os.path.join(TMP, "own.k")
+    with open(include, "w") as file:
+        file.write("*PARAMETER_LOCAL\nRmu,0.7,Rown,1.5\n*END\n")
+    deck, folder = scene("local")
+    with open(deck) as file:
+        text = file.read()
+    with open(deck, "w") as file:
+        file.write(text.replace("*PARAMETER\n", "*INCLUDE\nown.k\n*PARAMETER\n", 1))
+    code, errors, _ = bipact(deck, folder, "--quiet")
+    summary = summary_of(folder)
+    found = summary["deck"]["parameters"]
+    check(
+        code == 0 and (found["MU"], found["OWN"]) == ("0.3", "1.5"), "%s %s" % (errors, found)
+    )
+    check(summary["deck"]["files"][1]["path"] == include, "the include")
+
+
 def without_contact():
     """No contact, no tables: the ledger all the same, no certificate."""
     lines, _ = scenes.two_blocks()
@@ -282,6 +301,16 @@ def stopped():
     check(again["steps"] > summary["steps"] > 0, "steps go on")
 
 
-for test in (done, every_term, warned, failed, texts, without_contact, old_ones, stopped):
+for test in (
+    done,
+    every_term,
+    warned,
+    failed,
+    texts,
+    parameters,
+    without_contact,
+    old_ones,
+    stopped,
+):
     test()
 finish()
