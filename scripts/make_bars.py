@@ -28,6 +28,7 @@ from fractions import Fraction
 from types import SimpleNamespace
 
 import startup  # noqa: F401  before what is no part of Python
+from cards import NODE, SHELL, TEN, block, card, listed, names, parameter_lines, text_of
 
 DEFAULTS = dict(
     nx=100,
@@ -87,43 +88,6 @@ TABLES = (
     "timing",
 )
 SPACING = 1.0e-9  # a time is a whole number of steps when within this fraction of a step
-TEN, NODE, SHELL = (10,) * 8, (8, 16, 16, 16, 8, 8), (8,) * 10
-
-
-# ---------------------------------------------------------------- cards
-
-
-def text_of(value):
-    """Shortest text that reads back equal; '' for a default."""
-    if value is None:
-        return ""
-    if isinstance(value, float):
-        return repr(value + 0.0)  # no negative zero
-    return str(value)
-
-
-def card(widths, *values):
-    """One card: fixed columns, or comma form where a number is wider than its field."""
-    texts = [text_of(v) for v in values]
-    if all(len(t) <= w for t, w in zip(texts, widths)):
-        return "".join(t.rjust(w) for t, w in zip(texts, widths)).rstrip()
-    joined = ",".join(texts).rstrip(",")
-    return joined if "," in joined else joined + ","
-
-
-def names(widths, *labels):
-    """'$#' comment with each field's name over its columns."""
-    return ("$#" + "".join(n.rjust(w) for n, w in zip(labels, widths))[2:]).rstrip()
-
-
-def block(keyword, labels, *values):
-    """A keyword with one card of 10-column fields under its names."""
-    return [keyword, names(TEN, *labels.split()), card(TEN, *values)]
-
-
-def listed(ids):
-    """Cards of eight ids each."""
-    return [card(TEN, *ids[k : k + 8]) for k in range(0, len(ids), 8)]
 
 
 # ---------------------------------------------------------------- data of the scene
@@ -405,17 +369,6 @@ def parameters(o):
         values["v0"] = o.v1 * o.unit["V"]
     values["mu"] = float(o.mu)
     return {name: value for name, value in values.items() if len(text_of(value)) <= 10}
-
-
-def parameter_lines(values):
-    """*PARAMETER card: type letter and name in 10 columns, value in 10."""
-    if not values:
-        return []
-    labels = [part + str(k + 1) for k in range(len(values)) for part in ("name", "value")]
-    pairs = "".join(
-        ("R" + name).ljust(10) + text_of(value).rjust(10) for name, value in values.items()
-    )
-    return ["*PARAMETER", names(TEN, *labels), pairs]
 
 
 def named(o, name, value):

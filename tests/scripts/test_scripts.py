@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Tests of the scripts: tables, exact solutions, deck writer, comparison, figures, demo.
 
-Synthetic tables are made from the exact solution; decks are read back by a small reader of
-their own (class Deck).  usage: test_scripts.py [part of a test name ...]
+Synthetic tables are made from the exact solution; decks are read back by a small reader of the
+tests (class Deck of support/deck_text.py).  usage: test_scripts.py [part of a test name ...]
 """
 
 import contextlib
@@ -19,13 +19,14 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPTS = os.path.join(os.path.dirname(os.path.dirname(HERE)), "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path[:0] = [SCRIPTS, os.path.join(os.path.dirname(HERE), "support")]
 
 import analytic  # noqa: E402
 import compare  # noqa: E402
 import make_bars  # noqa: E402
 import plot_history  # noqa: E402
 import tables  # noqa: E402
+from deck_text import Deck  # noqa: E402
 
 GLSTAT = (
     "time cycle dt kinetic internal total initial external motion friction contact "
@@ -391,105 +392,6 @@ class AnalyticTest(Case):
 
 
 # ---------------------------------------------------------------- decks
-
-
-class Deck:
-    """Cards of a deck by keyword, read by the rules of the format: fixed columns or commas.
-
-    cards  {keyword: [[field, ...], ...]} as text, '' for blank; title cards are one field
-    """
-
-    WIDTHS = {
-        "*NODE": (8, 16, 16, 16, 8, 8),
-        "*ELEMENT_SHELL": (8,) * 10,
-        "*PARAMETER": (10,) * 8,
-    }
-    TITLES = {
-        "*TITLE": (1, 1),
-        "*SET_NODE_LIST_TITLE": (1, 0),
-        "*PART": (1, 2),
-        "*INCLUDE": (1, 1),
-    }
-
-    def __init__(self, path):
-        self.cards, self.lines = {}, []
-        self._read(path)
-        pairs = [f for fields in self.cards.get("*PARAMETER", []) for f in fields]
-        self.parameters = {n[1:]: v for n, v in zip(pairs[::2], pairs[1::2]) if n}
-
-    def _read(self, path):
-        with open(path, encoding="ascii") as stream:
-            lines = stream.read().splitlines()
-        self.lines += lines
-        keyword, count = None, 0
-        for line in lines:
-            if line.startswith("$"):
-                continue
-            if line.startswith("*"):
-                keyword, count = line.strip(), 0
-                self.cards.setdefault(keyword, [])
-                continue
-            count += 1
-            self.cards[keyword].append(self._fields(keyword, count, line))
-            if keyword == "*INCLUDE":
-                self._read(os.path.join(os.path.dirname(path), line.strip()))
-
-    def _fields(self, keyword, count, line):
-        first, period = self.TITLES.get(keyword, (0, 0))
-        if first and (count == first or (period and (count - first) % period == 0)):
-            return [line]
-        if "," in line:
-            return line.split(",")
-        fields, widths = [], self.WIDTHS.get(keyword, (10,) * 8)
-        for width in widths:
-            fields.append(line[:width].strip())
-            line = line[width:]
-        assert not line.strip(), "text beyond the last field"
-        return fields
-
-    def number(self, text):
-        """Number in a field; parameters resolved."""
-        if "&" in text:
-            sign, name = text.split("&")
-            return float(self.parameters[name]) * (-1.0 if sign == "-" else 1.0)
-        return float(text)
-
-    def field(self, keyword, card, column):
-        """Field of a card, both counted from 1, as a number."""
-        return self.number(self.cards[keyword][card - 1][column - 1])
-
-    def nodes(self):
-        """{id: (x, y)}"""
-        return {int(f[0]): (float(f[1]), float(f[2])) for f in self.cards["*NODE"]}
-
-    def elements(self):
-        """{id: (part, [nodes])}"""
-        return {
-            int(f[0]): (int(f[1]), [int(n) for n in f[2:6]])
-            for f in self.cards["*ELEMENT_SHELL"]
-        }
-
-    def sets(self):
-        """{set id: [nodes]}"""
-        found, cards = {}, iter(self.cards["*SET_NODE_LIST_TITLE"])
-        state = None
-        for fields in cards:
-            if len(fields) == 1:
-                state = None
-            elif state is None:
-                state = int(fields[0])
-                found[state] = []
-            else:
-                found[state] += [int(n) for n in fields if n]
-        return found
-
-    def velocities(self):
-        """{part: (vx, vy)}"""
-        cards = [f for f in self.cards["*INITIAL_VELOCITY_GENERATION"] if any(f)]
-        return {
-            int(f[0]): tuple(self.number(v) if v else 0.0 for v in (f + [""])[3:5])
-            for f in cards
-        }
 
 
 def area(points):
