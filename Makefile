@@ -26,7 +26,7 @@ Q := $(if $(V),,@)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .DEFAULT_GOAL := all
-.PHONY: all no-hdf5 demo test test-unit test-programs bench-programs examples example-programs check-style doc deps venv debug \
+.PHONY: all no-hdf5 demo test test-unit test-programs bench-programs examples example-programs check-style doc deps venv gmsh debug \
         sanitize fuzz collide bench bench-features bench-fclib report stability \
         install uninstall clean distclean help FORCE
 
@@ -34,7 +34,7 @@ Q := $(if $(V),,@)
 
 # These read neither the compiler nor the sources: they must work on a machine that has no gfortran
 # yet. What needs a compiler runs in a second make, started after the installation.
-light := demo test test-unit examples check-style doc deps venv debug sanitize fuzz collide bench bench-features bench-fclib \
+light := demo test test-unit examples check-style doc deps venv gmsh debug sanitize fuzz collide bench bench-features bench-fclib \
          report stability install uninstall clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
@@ -111,6 +111,9 @@ deps: ## install compiler and libraries, if any is missing
 
 venv: deps ## make .venv with the Python packages of requirements.txt
 	@PYTHON="$(PYTHON3)" scripts/setup-venv.sh
+
+gmsh: venv ## add Gmsh to .venv, which meshes .geo files and reads .msh files for scripts/mesh2deck.py
+	@PYTHON="$(PYTHON3)" scripts/setup-gmsh.sh
 
 install: ## build, then install below PREFIX (/usr/local), for packagers below DESTDIR/PREFIX
 	+@$(again) all
