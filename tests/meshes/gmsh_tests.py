@@ -211,7 +211,7 @@ def own_export():
     if code == 0:
         area = table(folder, "glstat")["kinetic"][0] / (0.5 * 0.001 * 2.0**2)
         # 64 corners on the circle, as doc/meshes.md shows; the file has 12 digits.
-        at_most(abs(area / (32.0 * np.sin(np.pi / 32.0)) - 1.0), 1e-7, "area of the .key - 1")
+        at_most(abs(area / (32.0 * np.sin(np.pi / 32.0)) - 1.0), 1e-11, "area of the .key - 1")
 
 
 def commands():
