@@ -105,9 +105,15 @@ def summary(mesh, found, source):
 
 def write(path, lines):
     """A file that is there whole or not at all."""
-    with open(path + ".part", "w", encoding="utf-8", newline="\n") as out:
-        out.write("\n".join(lines) + "\n")
-    os.replace(path + ".part", path)
+    part = path + ".part"
+    try:
+        with open(part, "w", encoding="utf-8", newline="\n") as out:
+            out.write("\n".join(lines) + "\n")
+        os.replace(part, path)
+    except OSError as problem:
+        if os.path.exists(part):
+            os.remove(part)
+        raise OSError(problem.errno, problem.strerror, path) from None
 
 
 def convert(source, target, scene=False, part_data=None):

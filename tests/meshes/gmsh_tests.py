@@ -214,11 +214,11 @@ def own_export():
         at_most(abs(area / (32.0 * np.sin(np.pi / 32.0)) - 1.0), 1e-11, "area of the .key - 1")
 
 
-def commands():
-    """The commands of the first block of doc/meshes.md."""
+def blocks():
+    """The indented blocks of doc/meshes.md: the commands, what the second of them says."""
     with open(os.path.join(ROOT, "doc", "meshes.md"), encoding="utf-8") as page:
-        block = re.search(r"\n\n((?:    .+\n)+)\n", page.read()).group(1)
-    return [line.strip() for line in block.splitlines()]
+        found = re.findall(r"\n\n((?:    .+\n)+)\n", page.read())
+    return [[line[4:] for line in block.splitlines()] for block in found]
 
 
 def picture():
@@ -228,13 +228,21 @@ def picture():
     for name in (".venv", "scripts", "input"):
         os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
     os.symlink(BIPACT, os.path.join(folder, "bin", "bipact"))
-    lines = commands()
-    check(len(lines) == 4, "four commands: %s" % lines)
-    for line in lines:
-        done = subprocess.run(line, shell=True, cwd=folder, stdout=-1, stderr=-2, text=True)
-        check(
-            done.returncode == 0, "%s: exit code %d: %s" % (line, done.returncode, done.stdout)
+    commands, summary = blocks()[:2]
+    check(len(commands) == 4, "four commands: %s" % commands)
+    for k, command in enumerate(commands):
+        done = subprocess.run(
+            command,
+            shell=True,
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
         )
+        check(done.returncode == 0, "%s: %d, %s" % (command, done.returncode, done.stdout))
+        if k == 1:
+            shape = [re.sub(r"[\d.]+", "0", line) for line in done.stdout.splitlines()]
+            check(shape == [re.sub(r"[\d.]+", "0", line) for line in summary], "as shown")
     judge_disc(folder)
 
 
