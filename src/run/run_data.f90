@@ -36,6 +36,7 @@ module run_data
     logical :: reactions = .false.   !< of held dofs, at every step
     logical :: ledger = .false.
     logical :: refinement = .false.
+    integer :: refined_from = huge(1)  !< number of steps before the first that is refined
     logical :: dump = .false.        !< of contact problems
     logical :: fields = .false.      !< files of frames
     logical :: restarts = .false.    !< files to go on from

@@ -116,7 +116,7 @@ contains
     if (run%plan%contact) call add_contact(run, acting, status)
     call run%solver%backward(run%x_last, run%x)
     run%solves = run%solves + 1
-    if (run%plan%refinement) call refine(run, stage, acting, status)
+    if (run%state%cycle >= run%plan%refined_from) call refine(run, stage, acting, status)
     if (run%plan%motions) call restore_motions(run)
   end subroutine solve_stage
 

@@ -26,8 +26,8 @@ module run_setup
 
   !> About a Courant number of 10.
   real(wp), parameter :: refinement_ratio = 200.0_wp
-  !> Of the ledger over a run.
-  real(wp), parameter :: largest_drift = 1.0e-11_wp
+  !> Share of the energy: a tenth of what the ledger promises over a run.
+  real(wp), parameter :: largest_drift = 1.0e-12_wp
 
 contains
 
@@ -103,20 +103,25 @@ contains
 
   !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
   !> loses digits that the ledger needs: each solve multiplies a momentum by 1 + eps times
-  !> stiffness/inertia, always with the same sign, for the factor is the same. Where that may
-  !> grow beyond the promise of the ledger within the run, each solve is followed by one
-  !> correction.
+  !> stiffness/inertia, always with the same sign, for the factor is the same. Where one step
+  !> loses much, and from the step on up to which the losses may have grown to largest_drift,
+  !> each solve is followed by one correction. The number of steps so far decides, not the end
+  !> time: a run that goes on to a later end is the longer run.
   subroutine plan_refinement(run)
     type(run_t), intent(inout) :: run
     !> Of a free body, measured: 1 to 2.4 for the momentum, twice that for the energy.
     real(wp), parameter :: factor = 5.0_wp*epsilon(zero)
-    real(wp) :: ratio, drift
+    real(wp) :: ratio, steps
     ratio = stiffness_ratio(run%system, run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k)
-    drift = factor*ratio*run%plan%full_steps
-    run%plan%refinement = ratio > refinement_ratio .or. drift > largest_drift
+    steps = min(real(huge(1), wp), largest_drift/max(factor*ratio, tiny(ratio)))
+    if (ratio > refinement_ratio) steps = zero
+    run%plan%refined_from = int(steps)
+    run%plan%refinement = run%plan%refined_from < run%plan%full_steps + &
+        merge(1, 0, run%plan%last_step > zero)
     call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
         to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio)// &
-        '; drift at the end '//to_text(drift)//', limit '//to_text(largest_drift))
+        '; after '//to_text(run%plan%refined_from)//' steps, when the drift may pass '// &
+        to_text(largest_drift))
     if (run%plan%refinement) &
         allocate (run%correction(2, run%system%n), run%b_kept(2, run%system%n))
   end subroutine plan_refinement
