@@ -20,15 +20,25 @@ import h5py
 import numpy as np
 
 
+def holds(group):
+    """What a field file holds: names, places and sizes."""
+    mesh = [group[name].shape for name in ("Points", "Types")]
+    return mesh, sorted(group["PointData"]), sorted(group["CellData"])
+
+
 class Fields:
-    """All frames of a run, in order of time."""
+    """All frames of a run that hold what the last ones do, in order of time."""
 
     def __init__(self, folder):
         paths = glob.glob(os.path.join(folder, "fields.*.vtkhdf"))
         self.paths = sorted(paths, key=lambda p: int(os.path.basename(p).split(".")[1]))
         if not self.paths:
             raise FileNotFoundError("no field files in %s" % folder)
-        self.files = [h5py.File(path, "r")["VTKHDF"] for path in self.paths]
+        files = {path: h5py.File(path, "r")["VTKHDF"] for path in self.paths}
+        # A run that went on with other fields has others in its first files.
+        last = holds(files[self.paths[-1]])
+        self.paths = [path for path in self.paths if holds(files[path]) == last]
+        self.files = [files[path] for path in self.paths]
         counts = [int(g["Steps"].attrs["NSteps"]) for g in self.files]
         self.place = [(f, k) for f, n in enumerate(counts) for k in range(n)]
         self.times = np.concatenate(

@@ -23,6 +23,7 @@ module base_archive
     type(status_t) :: status
   contains
     procedure :: rewind => archive_rewind
+    procedure :: agree => archive_agree
     procedure :: exchange_integer
     procedure :: exchange_real
     procedure :: exchange_vector
@@ -46,6 +47,29 @@ contains
     if (mode == archive_save) this%n = 0
     if (.not. allocated(this%entry)) allocate (this%entry(64))
   end subroutine archive_rewind
+
+  !> For entries that are kept only where they are wanted: `both` tells whether those whose
+  !> names begin with prefix are exchanged now. Saved ones that are not wanted are passed over.
+  subroutine archive_agree(this, prefix, wanted, both)
+    class(archive_t), intent(inout) :: this
+    character(*), intent(in) :: prefix
+    logical, intent(in) :: wanted
+    logical, intent(out) :: both
+    both = wanted
+    if (this%mode == archive_save) return
+    both = comes_next(this, prefix) .and. wanted
+    if (wanted) return
+    do while (comes_next(this, prefix))
+      this%next = this%next + 1
+    end do
+  end subroutine archive_agree
+
+  pure logical function comes_next(this, prefix)
+    type(archive_t), intent(in) :: this
+    character(*), intent(in) :: prefix
+    comes_next = this%next <= this%n
+    if (comes_next) comes_next = index(this%entry(this%next)%name, prefix) == 1
+  end function comes_next
 
   !> Saves or restores the values of one entry; a name or size that does not fit is a failure.
   subroutine exchange_vector(this, name, values)

@@ -94,7 +94,7 @@ contains
     call c_exit(int(code, c_int))
   end subroutine leave
 
-  !> Becomes another program that lies beside this one, with the same arguments: its name is
+  !> Becomes another program that lies beside this one, with the same command line: its name is
   !> that of this one with `ending` after the first word (bipact-debug: bipact-ending-debug).
   !> Returns only where there is none, with its path.
   subroutine become_sibling(ending, path)
@@ -125,7 +125,6 @@ contains
     allocate (word(longest + 1, 0:n), list(0:n + 1))
     do k = 0, n
       call get_command_argument(k, text)
-      if (k == 0) text = path
       do i = 1, len_trim(text)
         word(i, k) = text(i:i)
       end do

@@ -9,6 +9,7 @@ module contact_archive
   use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
   use contact_rows, only: rows_t, start_rows, row_kinds
   use contact_types, only: contact_t, tally_t
+  use contact_work, only: find_nodal
   implicit none
   private
   public :: exchange_contact
@@ -16,10 +17,14 @@ module contact_archive
 contains
 
   !> Saves to or restores from the archive. After restoring, the interface is that of the
-  !> archive, and the effective matrix must be factored for it.
-  subroutine exchange_contact(archive, contact)
+  !> archive, and the effective matrix must be factored for it. begins: forces on nodes are
+  !> wanted that the archive does not have; they are those of the rows, without gaps and the
+  !> step before.
+  subroutine exchange_contact(archive, contact, begins)
     type(archive_t), intent(inout) :: archive
     type(contact_t), intent(inout) :: contact
+    logical, intent(out) :: begins
+    logical :: is_kept
     integer :: counts(6)
     integer :: p
     counts = [size(contact%interface_node), merge(1, 0, contact%alternates), &
@@ -39,8 +44,18 @@ contains
     call exchange_rows(archive, contact%rows)
     if (contact%keeps_before) call exchange_rows(archive, contact%before)
     call exchange_tally(archive, contact%tally)
+    begins = .false.
     do p = 1, size(contact%pairing)
-      call exchange_pairing(archive, contact%pairing(p)%item)
+      associate (pairing => contact%pairing(p)%item)
+        call exchange_pairing(archive, pairing)
+        call archive%agree('nodal.', allocated(pairing%nodal), is_kept)
+        if (is_kept) then
+          call exchange_nodal(archive, pairing%nodal)
+        else if (allocated(pairing%nodal)) then
+          begins = .true.
+          call find_nodal(contact, p)
+        end if
+      end associate
     end do
     if (archive%mode /= archive_restore) return
     contact%w_is_current = .false.
@@ -172,7 +187,6 @@ contains
     end if
     call pairing%exchange(archive)
     call exchange_sums(archive, pairing%sums)
-    if (allocated(pairing%nodal)) call exchange_nodal(archive, pairing%nodal)
   end subroutine exchange_pairing
 
   subroutine exchange_sums(archive, sums)

@@ -239,6 +239,7 @@ contains
     call archive%exchange('near.first', near%first(:n + 1))
     call archive%exchange('near.edge', near%edge(:m))
     call archive%exchange('near.distance', near%distance(:n))
+    call archive%exchange('near.nearest', near%nearest(:n))
     call archive%exchange('near.front', near%front(:n))
   end subroutine exchange_near
 

@@ -487,6 +487,7 @@ contains
     type(archive_t), intent(inout) :: archive
     call archive%exchange('node.turn_margin', this%turn_margin)
     call archive%exchange('node.listed', this%listed)
+    call archive%exchange('node.is_measured', this%is_measured)
     call exchange_near(archive, this%near(1))
     call exchange_near(archive, this%near(2))
     if (archive%mode == archive_restore) call size_places(this)

@@ -20,7 +20,7 @@ module contact_work
     real(wp) :: paid_back = zero      !< of the normal work by closing overlaps
   end type contact_work_t
 
-  public :: add_contact_step, subtract_contact_force, start_row
+  public :: add_contact_step, find_nodal, subtract_contact_force, start_row
 
 contains
 
@@ -85,6 +85,20 @@ contains
     nodal%slip = zero
     nodal%status = contact_open
   end subroutine clear_nodal
+
+  !> Forces on the nodes of pairing p by the rows of the step just done.
+  subroutine find_nodal(contact, p)
+    type(contact_t), intent(inout) :: contact
+    integer, intent(in) :: p
+    integer :: a
+    associate (pairing => contact%pairing(p)%item)
+      call clear_nodal(pairing%nodal)
+      do a = 1, contact%rows%n
+        if (contact%rows%key(1, a) == p) &
+            call add_nodal(contact%rows, a, pairing%side, pairing%nodal)
+      end do
+    end associate
+  end subroutine find_nodal
 
   !> Force and slip of a row to its nodes, in shares of their weights.
   pure subroutine add_nodal(rows, a, side, nodal)

@@ -108,7 +108,8 @@ contains
       call add_field(table, 'NAME'//achar(48 + k), 'W10 '// &
           choices([character(9) :: field_names, 'ALL']), 'a field; no card 2: U, V, STRESS')
     end do
-    call add_keyword(table, 'BIPACT_RESTART', 'restart files', required=1, once=.true.)
+    call add_keyword(table, 'BIPACT_RESTART', 'restart files, one of the end of the run too', &
+        required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'NSTEP', 'I10 =0 >=0', 'every so many steps; 0 = not so')
     call add_field(table, 'WALL', 'R10 =0.0 >=0', 'every so many seconds of the clock')

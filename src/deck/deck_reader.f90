@@ -20,7 +20,7 @@ module deck_reader
   integer, parameter :: include_limit = 1000
   !> The card of _TITLE or _ID.
   integer, parameter :: head_none = 0, head_title = 1, head_id = 2
-  public :: read_deck
+  public :: read_deck, read_deck_text
 
 contains
 
@@ -32,8 +32,7 @@ contains
     type(deck_t), intent(inout) :: deck
     type(status_t), intent(inout) :: status
     logical :: ended, long
-    allocate (deck%file(include_limit), deck%block(64), deck%record(1024), deck%parameter(16))
-    deck%files = 1
+    call start_deck(deck)
     call load_file(path, deck%file(1), status)
     if (failed(status)) return
     long = .false.
@@ -42,6 +41,27 @@ contains
         call add_note(deck%problems, path//': no *END; the file was read to its end')
     call report_unused_overrides(overrides, deck)
   end subroutine read_deck
+
+  !> Reads a deck that is one text and includes nothing, as write_echo makes them; name: what
+  !> messages call it. deck%table is filled by the caller; problems are collected in the deck.
+  subroutine read_deck_text(name, text, deck)
+    character(*), intent(in) :: name, text
+    type(deck_t), intent(inout) :: deck
+    type(override_t) :: none(0)
+    logical :: ended, long
+    call start_deck(deck)
+    deck%file(1)%path = name
+    deck%file(1)%text = text
+    long = .false.
+    call read_file(deck, 1, 1, none, long, ended)
+  end subroutine read_deck_text
+
+  !> Room for the first file, blocks, cards and parameters.
+  subroutine start_deck(deck)
+    type(deck_t), intent(inout) :: deck
+    allocate (deck%file(include_limit), deck%block(64), deck%record(1024), deck%parameter(16))
+    deck%files = 1
+  end subroutine start_deck
 
   !> Reads one file to its *END or its last line. long: fields of 20 columns unless a keyword
   !> says otherwise.

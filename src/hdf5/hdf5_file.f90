@@ -11,12 +11,12 @@ module hdf5_file
       h5dget_space_f, h5sget_simple_extent_npoints_f, h5sclose_f, h5dread_f, h5dwrite_f, &
       h5dcreate_f, h5screate_simple_f, h5gcreate_f, h5gclose_f, h5t_native_integer, &
       h5t_native_double, h5pcreate_f, h5pclose_f, h5pset_fapl_core_f, h5p_file_access_f, &
-      h5gn_members_f, h5gget_obj_info_idx_f
+      h5gn_members_f, h5gget_obj_info_idx_f, h5t_std_u8le
   implicit none
   private
   public :: start_library, open_file, create_file, create_in_memory, take_image, close_file, &
       opens, has_path, read_integers, read_reals, make_group, write_integers, write_reals, &
-      list_members
+      list_members, write_text, read_text
 
   type, public :: file_t
     integer(hid_t) :: id = -1
@@ -279,6 +279,47 @@ contains
     call h5dclose_f(set, error)
     call h5sclose_f(space, error)
   end subroutine write_reals
+
+  !> Writes a text as a new data set of bytes.
+  subroutine write_text(file, path, text, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    character(*), intent(in), target :: text
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: set, space
+    integer(hsize_t) :: n(1)
+    integer :: error
+    if (failed(status)) return
+    n = len(text, hsize_t)
+    call h5screate_simple_f(1, n, space, error)
+    call h5dcreate_f(file%id, path, h5t_std_u8le, space, set, error)
+    if (error >= 0) call h5dwrite_f(set, h5t_std_u8le, c_loc(text), error)
+    if (error < 0) call cannot_write(file, status)
+    call h5dclose_f(set, error)
+    call h5sclose_f(space, error)
+  end subroutine write_text
+
+  !> All bytes of a data set as a text.
+  subroutine read_text(file, path, text, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path
+    character(:), allocatable, target, intent(out) :: text
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: set
+    integer(hsize_t) :: n
+    integer :: error
+    type(c_ptr) :: place
+    text = ''
+    if (failed(status)) return
+    call open_set(file, path, set, n, status)
+    if (failed(status)) return
+    deallocate (text)
+    allocate (character(n) :: text)
+    place = c_loc(text)
+    call h5dread_f(set, h5t_std_u8le, place, error)
+    if (error < 0) call fail(status, status_file, file%name//': '//path//' cannot be read')
+    call h5dclose_f(set, error)
+  end subroutine read_text
 
   !> Writes an array of integers as a new data set.
   subroutine write_integers(file, path, values, status)

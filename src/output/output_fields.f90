@@ -13,6 +13,7 @@ module output_fields
   use model_data, only: model_t, corner_count
   use model_state, only: state_t
   use output_storage, only: mesh_t, field_t
+  use output_table, only: next_due
   implicit none
   private
   public :: make_fields, make_mesh, fill_fields, frame_is_due, next_frame
@@ -176,10 +177,7 @@ contains
     fields%frames = fields%frames + 1
     fields%time(fields%frames) = time
     fields%segment_of(fields%frames) = fields%segment
-    associate (interval => model%requests%field%interval)
-      fields%next = zero
-      if (interval > 1.0e-6_wp*h) fields%next = aint((time + 1.0e-9_wp*h)/interval) + 1.0_wp
-    end associate
+    fields%next = next_due(model%requests%field%interval, time, h)
   end subroutine next_frame
 
   !> Values of all fields for the state as it is.

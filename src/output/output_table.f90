@@ -17,6 +17,7 @@ module output_table
     logical :: on = .false.
     real(wp) :: interval = zero   !< [T]
     real(wp) :: next = zero       !< rows are due from next*interval on (a whole number)
+    integer :: no_row_at = -1     !< step whose values are not known where a run goes on
     integer :: unit = -1
     integer :: filled = 0
     integer(i8) :: written = 0_i8 !< bytes on file
@@ -25,8 +26,8 @@ module output_table
     character(:), allocatable :: buffer
   end type table_file_t
 
-  public :: open_table, row_is_due, rows_done, begin_row, add_number, add_count, end_row, &
-      close_table, write_out, reopen_table, check_rows
+  public :: open_table, row_is_due, rows_done, next_due, begin_row, add_number, add_count, &
+      end_row, close_table, write_out, reopen_table, check_rows
 
 contains
 
@@ -58,7 +59,8 @@ contains
     call add_line(table, '# '//columns)
   end subroutine open_table
 
-  !> Fails where a table does not have the table%written bytes any more that it had.
+  !> Fails where a table does not have the table%written bytes any more that it had (0: it
+  !> begins).
   subroutine check_rows(table, folder, name, interval, status)
     type(table_file_t), intent(in) :: table
     character(*), intent(in) :: folder, name
@@ -66,7 +68,7 @@ contains
     type(status_t), intent(inout) :: status
     character(:), allocatable :: path
     path = join_path(folder, name//'.tab')
-    if (.not. interval > zero) return
+    if (.not. interval > zero .or. table%written == 0_i8) return
     if (file_size(path) < table%written) call fail(status, status_file, &
         'cannot go on with "'//path//'": it has lost rows that it had when the restart '// &
         'file was written')
@@ -116,12 +118,16 @@ contains
   subroutine rows_done(table, time, h)
     type(table_file_t), intent(inout) :: table
     real(wp), intent(in) :: time, h
-    if (table%interval > 1.0e-6_wp*h) then
-      table%next = aint((time + 1.0e-9_wp*h)/table%interval) + 1.0_wp
-    else
-      table%next = zero           ! every step; the quotient might overflow
-    end if
+    table%next = next_due(table%interval, time, h)
   end subroutine rows_done
+
+  !> The multiple of the interval from which something is due next that was due at a time, or at
+  !> none since its last multiple.
+  pure real(wp) function next_due(interval, time, h)
+    real(wp), intent(in) :: interval, time, h
+    next_due = zero               ! every step; the quotient might overflow
+    if (interval > 1.0e-6_wp*h) next_due = aint((time + 1.0e-9_wp*h)/interval) + 1.0_wp
+  end function next_due
 
   !> Starts a row.
   subroutine begin_row(table, status)

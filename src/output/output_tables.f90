@@ -3,14 +3,16 @@
 module output_tables
   use base_archive, only: archive_t
   use base_format, only: real_writer_t, make_real_writer
-  use base_kinds, only: wp, i8
+  use base_kinds, only: wp, zero, i8
   use base_status, only: status_t, failed
+  use base_strings, only: upper
   use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
       table_elout, table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, &
       table_timing
+  use deck_problems, only: problems_t, add_note
   use model_data, only: model_t
-  use output_table, only: table_file_t, open_table, row_is_due, add_number, close_table, &
-      reopen_table, check_rows, write_out
+  use output_table, only: table_file_t, open_table, row_is_due, next_due, add_number, &
+      close_table, reopen_table, check_rows, write_out
   implicit none
   private
 
@@ -20,12 +22,13 @@ module output_tables
     logical :: any_on = .false.
   end type tables_t
 
-  public :: flush_tables, exchange_tables, check_tables
+  public :: flush_tables, exchange_tables, retime_tables, check_tables
   public :: open_tables, any_due, energies_due, close_tables, add_numbers
 
 contains
 
-  !> Opens the tables that the deck asks for; again: keeps the rows of the run that goes on.
+  !> Opens the tables that the deck asks for; again: keeps the rows of the run that goes on,
+  !> where it has some.
   subroutine open_tables(tables, model, folder, has_acceleration, again, status)
     type(tables_t), intent(inout) :: tables
     type(model_t), intent(in) :: model
@@ -61,7 +64,7 @@ contains
       integer, intent(in) :: k
       character(*), intent(in) :: columns
       if (failed(status)) return
-      if (again) then
+      if (again .and. tables%file(k)%written > 0_i8) then
         call reopen_table(tables%file(k), folder, trim(table_names(k)), &
             model%requests%interval(k), status)
       else
@@ -71,6 +74,31 @@ contains
     end subroutine open_one
 
   end subroutine open_tables
+
+  !> Where tables of a run that goes on have other intervals than before, their next rows are
+  !> due as if they had had them from the start. told [T]: up to where rows were written,
+  !> negative for none; h: length of a step. Tables that begin or end are noted.
+  subroutine retime_tables(tables, model, told, h, problems)
+    type(tables_t), intent(inout) :: tables
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: told, h
+    type(problems_t), intent(inout) :: problems
+    character(:), allocatable :: name
+    integer :: k
+    do k = 1, table_count
+      associate (file => tables%file(k), interval => model%requests%interval(k))
+        if (.not. abs(interval - file%interval) > zero) cycle
+        name = 'restart: table '//upper(trim(table_names(k)))
+        if (.not. interval > zero) then
+          call add_note(problems, name//' ends here: the deck does not ask for it any more')
+        else if (file%written == 0_i8) then
+          call add_note(problems, name//' begins here: the run so far had none')
+        end if
+        file%next = zero
+        if (told >= zero) file%next = next_due(interval, told, h)
+      end associate
+    end do
+  end subroutine retime_tables
 
   !> Fails where a table has not all rows any more that a run which is to go on had written.
   subroutine check_tables(tables, model, folder, status)
@@ -95,15 +123,19 @@ contains
     end do
   end subroutine flush_tables
 
-  !> Saves to or restores from the archive: when rows are due, and the bytes of each file.
+  !> Saves to or restores from the archive: intervals, when rows are due, and the bytes of each
+  !> file.
   subroutine exchange_tables(archive, tables)
     type(archive_t), intent(inout) :: archive
     type(tables_t), intent(inout) :: tables
-    real(wp) :: next(table_count), written(table_count)
+    real(wp) :: interval(table_count), next(table_count), written(table_count)
+    interval = tables%file%interval
     next = tables%file%next
     written = real(tables%file%written, wp)
+    call archive%exchange('tables.interval', interval)
     call archive%exchange('tables.next', next)
     call archive%exchange('tables.bytes', written)
+    tables%file%interval = interval
     tables%file%next = next
     tables%file%written = nint(written, i8)
   end subroutine exchange_tables

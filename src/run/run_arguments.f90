@@ -15,7 +15,7 @@ module run_arguments
     logical :: keywords = .false., help = .false., version = .false.
   end type arguments_t
 
-  public :: read_arguments
+  public :: read_arguments, command_to_go_on
 
 contains
 
@@ -80,6 +80,43 @@ contains
     allocate (character(length) :: text)
     call get_command_argument(k, text)
   end function argument
+
+  !> The command line of this run with --restart latest, in words that a shell takes.
+  function command_to_go_on() result(command)
+    character(:), allocatable :: command
+    integer :: k
+    command = quoted(argument(0))
+    k = 1
+    do while (k <= command_argument_count())
+      if (argument(k) == '--restart') then
+        k = k + 1
+      else
+        command = command//' '//quoted(argument(k))
+      end if
+      k = k + 1
+    end do
+    command = command//' --restart latest'
+  end function command_to_go_on
+
+  !> A word for a shell: in single quotes where a letter could mean something to it.
+  pure function quoted(word) result(text)
+    character(*), intent(in) :: word
+    character(:), allocatable :: text
+    character(*), parameter :: plain = '0123456789_./=+,:@%-'// &
+        'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
+    integer :: k
+    text = word
+    if (len(word) > 0 .and. verify(word, plain) == 0) return
+    text = "'"
+    do k = 1, len(word)
+      if (word(k:k) == "'") then
+        text = text//"'\''"
+      else
+        text = text//word(k:k)
+      end if
+    end do
+    text = text//"'"
+  end function quoted
 
   subroutine add_override(arguments, text, status)
     type(arguments_t), intent(inout) :: arguments

@@ -80,7 +80,9 @@ module run_data
     class(storage_t), allocatable :: storage  !< what can keep fields and restarts
     type(fields_t), allocatable :: fields     !< only with field files
     type(mesh_t), allocatable :: mesh
-    character(16) :: deck_hash = ''           !< only with restart files
+    ! Only with restart files: the deck as understood, and its hash
+    character(:), allocatable :: echo
+    character(16) :: deck_hash = ''
     integer(i8) :: restart_tick = 0_i8        !< clock at the last restart file
     integer :: restart_files = 0
     character(:), allocatable :: restarted    !< from where, empty: from the start

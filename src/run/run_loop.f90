@@ -22,7 +22,7 @@ module run_loop
   use run_frames, only: keep_frame
   use run_motion, only: activate_motions, impose_motions, restore_motions, find_reactions
   use run_progress, only: progress_t, show_progress, clear_progress
-  use run_restart, only: keep_restart
+  use run_restart, only: keep_restart, how_to_go_on
   use run_setup, only: factor_matrix
   use run_tables, only: write_rows
   use time_ledger, only: evaluate_ledger, largest_work
@@ -41,16 +41,18 @@ contains
     logical :: stopped
     steps = run%plan%full_steps
     if (run%plan%last_step > zero) steps = steps + 1
-    if (.not. allocated(run%restarted)) call tell(run, .false., status)
+    if (run%plan%restarts .and. .not. allocated(run%restarted)) &
+        call keep_restart(run, .false., status)
+    call tell(run, run%state%cycle == steps .or. failed(status), status)
     do while (run%state%cycle < steps .and. .not. failed(status))
       if (run%state%cycle == run%plan%full_steps) call cut_step(run, status)
       call advance(run, status)
-      call tell(run, run%state%cycle == steps .or. failed(status), status)
       stopped = stop_asked()
       stopped = stopped .and. run%state%cycle < steps
-      if (run%plan%restarts) &
-          call keep_restart(run, run%state%cycle == steps, stopped, status)
-      if (stopped) call fail(status, status_stopped, 'stopped by a signal')
+      if (run%plan%restarts) call keep_restart(run, stopped, status)
+      call tell(run, run%state%cycle == steps .or. failed(status), status)
+      if (stopped) call fail(status, status_stopped, 'stopped by a signal', &
+          hint=how_to_go_on(run))
       call show_progress(progress, run%quiet, run%state%cycle, steps, run%state%time)
     end do
     call clear_progress(progress)

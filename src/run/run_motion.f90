@@ -102,14 +102,16 @@ contains
     end associate
   end subroutine subtract_product
 
-  !> Reactions at t = 0 [F], M A0 + K U0 - P0, for schemes that weigh forces of both ends.
+  !> Reactions of a state [F], M A + K U - P - H' r, for schemes that weigh forces of both ends
+  !> of a step: at t = 0, and where a run goes on that kept none.
   subroutine start_reactions(run)
     type(run_t), intent(inout) :: run
     if (.not. allocated(run%state%a)) return
     run%b_whole = zero
-    call add_loads(run%model, run%system, zero, one, run%b_whole)
+    call add_loads(run%model, run%system, run%state%time, one, run%b_whole)
     call multiply_mass(run%system, -one, run%state%a, run%b_whole)
     call subtract_internal_force(run%system, one, run%state%u, run%b_whole)
+    call subtract_contact_force(run%contact, -one, run%b_whole)
     call take_held(run, run%b_whole)
   end subroutine start_reactions
 

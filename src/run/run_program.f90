@@ -23,7 +23,8 @@ module run_program
   use run_frames, only: start_frames, end_segment, remove_segments
   use run_loop, only: go_through_steps
   use run_report, only: open_log, close_log, write_plan
-  use run_restart, only: start_restarts, resume, remove_restarts
+  use run_restart, only: start_restarts, remove_restarts
+  use run_resume, only: resume
   use run_setup, only: read_scene, set_up
   use run_summary, only: totals_t, find_totals, ending_of, write_run_summary, remove_run_summary
   implicit none

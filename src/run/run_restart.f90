@@ -1,65 +1,82 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Restart files: when one is due, what it holds, and how a run goes on from it, bit for bit.
-!> Only scenes that ask for them come here.
+!> Restart files: when one is due and what it holds. Only scenes that ask for them come here.
 module run_restart
-  use base_archive, only: archive_t, archive_save, archive_restore
-  use base_checksum, only: checksum_of_file
-  use base_files, only: open_text, close_text, list_files, move_file, remove_file, &
-      sync_file, path_length
+  use base_archive, only: archive_t, archive_save
+  use base_checksum, only: checksum_of_text
+  use base_files, only: open_text, close_text, list_files, move_file, remove_file, sync_file, &
+      path_length
   use base_kinds, only: wp, zero, i8
   use base_signal, only: restart_asked
-  use base_status, only: status_t, fail, failed, status_text, status_file
-  use base_strings, only: join_path, to_text
+  use base_status, only: status_t, failed
+  use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
   use contact_archive, only: exchange_contact
   use deck_echo, only: write_echo
-  use deck_problems, only: add_note
+  use deck_source, only: source_file_t, load_file
   use model_state, only: exchange_state
-  use output_fields, only: fields_t
   use output_storage, only: restart_header_t
-  use output_tables, only: flush_tables, exchange_tables, check_tables
+  use output_tables, only: flush_tables, exchange_tables
+  use run_arguments, only: command_to_go_on
   use run_data, only: run_t
-  use run_frames, only: end_segment, check_segments
-  use run_motion, only: hold_active
-  use run_setup, only: factor_matrix
+  use run_frames, only: end_segment, exchange_frames
   use time_ledger, only: exchange_ledger
   implicit none
   private
-  public :: start_restarts, keep_restart, resume, remove_restarts
+  public :: start_restarts, keep_restart, exchange_run, time_told, list_restarts, &
+      remove_restarts, pairs_left_out, how_to_go_on
+
+  !> What a restart file tells of the run that wrote it beyond its state: where it was to end,
+  !> which pairs of parts cards of all parts left to others, what it did not keep of the step.
+  type, public :: origin_t
+    integer :: full_steps = 0
+    real(wp) :: last_step = zero    !< length of a cut last step; 0 = none [T]
+    integer :: left_out = 0
+    logical :: new_nodal = .false., new_reactions = .false.
+  end type origin_t
 
 contains
 
-  !> Hash of the deck as understood, which is written as deck.echo.tmp for that and becomes
+  !> The deck as understood and its hash. It is written as deck.echo.tmp for that and becomes
   !> deck.echo.k with the log: a restart that is refused leaves the folder as it was. The clock
   !> starts.
   subroutine start_restarts(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
+    type(source_file_t) :: echo
     character(:), allocatable :: path
-    integer(i8) :: bytes
     integer :: unit
     path = join_path(run%folder, 'deck.echo.tmp')
     call open_text(path, unit, status)
     if (failed(status)) return
     call write_echo(run%deck, unit)
     call close_text(path, unit, status)
-    if (.not. failed(status)) call checksum_of_file(path, 0, run%deck_hash, bytes, status)
-    if (failed(status)) call remove_file(path)
+    if (.not. failed(status)) call load_file(path, echo, status)
+    if (failed(status)) then
+      call remove_file(path)
+      return
+    end if
+    call move_alloc(echo%text, run%echo)
+    run%deck_hash = checksum_of_text(run%echo)
     call system_clock(run%restart_tick)
   end subroutine start_restarts
 
-  !> A restart file, if one is due after this step; always where `stopped` by a signal.
-  subroutine keep_restart(run, last, stopped, status)
+  !> A restart file, if one is due after this step, before anything is told of the step: what is
+  !> written at the end of a run need not be in a longer one. The end leaves one, and the step
+  !> before a last one that is cut, which a longer run does not have; so does a stop by a
+  !> signal.
+  subroutine keep_restart(run, stopped, status)
     type(run_t), intent(inout) :: run
-    logical, intent(in) :: last, stopped
+    logical, intent(in) :: stopped
     type(status_t), intent(inout) :: status
     logical :: due
-    if (last .or. failed(status)) return
-    due = stopped .and. run%model%requests%restart%on_signal
+    if (failed(status) .or. run%state%cycle > run%plan%full_steps) return
+    due = run%state%cycle == run%plan%full_steps
     if (restart_asked()) due = .true.
     associate (r => run%model%requests%restart)
-      if (r%steps > 0) due = due .or. mod(run%state%cycle, r%steps) == 0
+      due = due .or. (stopped .and. r%on_signal)
+      if (r%steps > 0 .and. run%state%cycle > 0) &
+          due = due .or. mod(run%state%cycle, r%steps) == 0
       if (r%wall > zero .and. .not. due) due = seconds_since(run%restart_tick) >= r%wall
     end associate
     if (due) call write_restart(run, status)
@@ -79,19 +96,22 @@ contains
     type(status_t), intent(inout) :: status
     type(archive_t) :: archive
     type(restart_header_t) :: header
+    type(origin_t) :: origin
     character(:), allocatable :: scratch
     call run%timers%enter(phase_output)
     call flush_tables(run%tables, status)
     if (run%plan%fields) call end_segment(run, status)
     run%restart_files = run%restart_files + 1
     call archive%rewind(archive_save)
-    call exchange_run(archive, run)
+    call exchange_run(archive, run, origin)
     header%cycle = run%state%cycle
     header%time = run%state%time
     header%deck_hash = run%deck_hash
     header%version = version
     scratch = join_path(run%folder, 'restart.tmp')
+    call move_alloc(run%echo, header%echo)      ! else a large deck would be there twice
     if (.not. failed(status)) call run%storage%save_restart(scratch, header, archive, status)
+    call move_alloc(header%echo, run%echo)
     if (.not. failed(status)) &
         call move_file(scratch, restart_path(run%folder, header%cycle), status)
     if (failed(status)) then
@@ -114,12 +134,19 @@ contains
     path = join_path(folder, 'restart.'//digits//'.h5')
   end function restart_path
 
+  !> The restart files of a folder, the newest last.
+  subroutine list_restarts(folder, paths)
+    character(*), intent(in) :: folder
+    character(path_length), allocatable, intent(out) :: paths(:)
+    call list_files(folder, 'restart.??????????.h5', paths)
+  end subroutine list_restarts
+
   subroutine drop_old(folder, keep)
     character(*), intent(in) :: folder
     integer, intent(in) :: keep
     character(path_length), allocatable :: paths(:)
     integer :: k
-    call list_files(folder, 'restart.??????????.h5', paths)
+    call list_restarts(folder, paths)
     do k = 1, size(paths) - keep
       call remove_file(trim(paths(k)))
     end do
@@ -133,27 +160,56 @@ contains
     character(:), allocatable :: last
     integer :: k
     last = restart_path(folder, cycle)
-    call list_files(folder, 'restart.??????????.h5', paths)
+    call list_restarts(folder, paths)
     do k = 1, size(paths)
       if (cycle < 0 .or. trim(paths(k)) > last) call remove_file(trim(paths(k)))
     end do
   end subroutine remove_restarts
 
-  !> Everything that the steps to come depend on, saved or restored.
-  subroutine exchange_run(archive, run)
+  !> Everything that the steps to come depend on, saved or restored, and what stands on file of
+  !> those before the last.
+  subroutine exchange_run(archive, run, origin)
+    type(archive_t), intent(inout) :: archive
+    type(run_t), intent(inout) :: run
+    type(origin_t), intent(inout) :: origin
+    logical :: are_kept
+    origin%full_steps = run%plan%full_steps
+    origin%last_step = run%plan%last_step
+    call archive%exchange('origin.full_steps', origin%full_steps)
+    call archive%exchange('origin.last_step', origin%last_step)
+    origin%left_out = pairs_left_out(run)
+    call archive%exchange('origin.left_out', origin%left_out)
+    call exchange_state(archive, run%state)
+    if (run%plan%contact) call exchange_contact(archive, run%contact, origin%new_nodal)
+    call exchange_ledger(archive, run%ledger)
+    call exchange_tables(archive, run%tables)
+    call exchange_frames(archive, run, time_told(run))
+    call archive%agree('reaction.', run%plan%reactions, are_kept)
+    origin%new_reactions = run%plan%reactions .and. .not. are_kept
+    if (are_kept) then
+      call archive%exchange('reaction.end', run%reaction)
+      call archive%exchange('reaction.mean', run%mean_reaction)
+    end if
+    if (run%plan%motions) call archive%exchange('run.active', run%active_motion)
+    call exchange_progress(archive, run)
+  end subroutine exchange_run
+
+  !> How many pairs of parts contact cards leave out, which depends on the end time.
+  pure integer function pairs_left_out(run)
+    type(run_t), intent(in) :: run
+    integer :: k
+    pairs_left_out = 0
+    do k = 1, size(run%model%contact)
+      if (allocated(run%model%contact(k)%leaves_out)) pairs_left_out = pairs_left_out + &
+          count(run%model%contact(k)%leaves_out)
+    end do
+  end function pairs_left_out
+
+  !> Counts of the log, and what warnings tell.
+  subroutine exchange_progress(archive, run)
     type(archive_t), intent(inout) :: archive
     type(run_t), intent(inout) :: run
     integer :: counts(5)
-    call exchange_state(archive, run%state)
-    if (run%plan%contact) call exchange_contact(archive, run%contact)
-    call exchange_ledger(archive, run%ledger)
-    call exchange_tables(archive, run%tables)
-    if (run%plan%fields) call exchange_frames(archive, run%fields)
-    if (run%plan%reactions) then
-      call archive%exchange('run.reaction', run%reaction)
-      call archive%exchange('run.mean_reaction', run%mean_reaction)
-    end if
-    if (run%plan%motions) call archive%exchange('run.active', run%active_motion)
     counts = [run%factors, run%analyses, run%solves, run%rotation_element, run%restart_files]
     call archive%exchange('run.counts', counts)
     run%factors = counts(1)
@@ -164,116 +220,25 @@ contains
     call archive%exchange('run.largest_motion', run%largest_motion)
     call archive%exchange('run.rotation', run%rotation)
     call archive%exchange('run.checked', run%checked)
-  end subroutine exchange_run
+  end subroutine exchange_progress
 
-  !> Frames so far; on the way back the next file is the one after the last of them.
-  subroutine exchange_frames(archive, fields)
-    type(archive_t), intent(inout) :: archive
-    type(fields_t), intent(inout) :: fields
-    integer :: counts(2)
-    counts = [fields%frames, fields%segment]
-    call archive%exchange('fields.counts', counts)
-    call archive%exchange('fields.next', fields%next)
-    fields%frames = counts(1)
-    fields%segment = counts(2)
-    if (archive%mode == archive_restore .and. fields%frames > size(fields%time)) then
-      deallocate (fields%time, fields%segment_of)
-      allocate (fields%time(2*fields%frames), fields%segment_of(2*fields%frames))
-    end if
-    if (archive%mode == archive_restore) then
-      deallocate (fields%bytes)
-      allocate (fields%bytes(fields%segment))
-    end if
-    call archive%exchange('fields.bytes', fields%bytes)
-    call archive%exchange('fields.time', fields%time(:fields%frames))
-    call archive%exchange('fields.segment_of', fields%segment_of(:fields%frames))
-  end subroutine exchange_frames
+  !> Up to where [T] rows and frames were written when a restart file was: the step before it;
+  !> negative at the start.
+  pure real(wp) function time_told(run)
+    type(run_t), intent(in) :: run
+    time_told = (run%state%cycle - 1)*run%model%controls%dt
+  end function time_told
 
-  !> Puts a run that has been set up to where a restart file left it. file: its path, or
-  !> "latest": the newest in the folder of the run that can be gone on from.
-  subroutine resume(run, file, status)
-    type(run_t), intent(inout) :: run
-    character(*), intent(in) :: file
-    type(status_t), intent(inout) :: status
-    if (file == 'latest') then
-      call restore_latest(run, status)
-    else
-      call restore(run, file, status)
-    end if
-    if (.not. failed(status)) call factor_again(run, status)
-  end subroutine resume
-
-  !> Tries one after the other from the newest; the log will tell why some were passed over.
-  !> Where none will do, the reason of the newest is given.
-  subroutine restore_latest(run, status)
-    type(run_t), intent(inout) :: run
-    type(status_t), intent(inout) :: status
+  !> What to do after a signal has stopped the run.
+  function how_to_go_on(run) result(hint)
+    type(run_t), intent(in) :: run
+    character(:), allocatable :: hint
     character(path_length), allocatable :: paths(:)
-    type(status_t) :: trial
-    integer :: k
-    call list_files(run%folder, 'restart.??????????.h5', paths)
-    if (size(paths) == 0) call fail(status, status_file, 'no restart file in "'// &
-        run%folder//'"', hint='*BIPACT_RESTART makes a run write them')
-    do k = size(paths), 1, -1
-      trial = status_t()
-      call restore(run, trim(paths(k)), trial)
-      if (.not. failed(trial)) exit
-      if (.not. failed(status)) status = trial
-      call add_note(run%deck%problems, 'restart: "'//trim(paths(k))//'" is passed over: '// &
-          status_text(trial))
-    end do
-    if (size(paths) == 0) return
-    if (failed(trial)) then
-      status%hint = 'none of the '//to_text(size(paths))//' restart files there can be used'
-    else
-      status = trial
-    end if
-  end subroutine restore_latest
-
-  !> The state of a run from a restart file; fails where it, or what lies beside it, will not
-  !> do.
-  subroutine restore(run, path, status)
-    type(run_t), intent(inout) :: run
-    character(*), intent(in) :: path
-    type(status_t), intent(inout) :: status
-    type(archive_t) :: archive
-    call load(run, path, archive, status)
-    if (failed(status)) return
-    run%restarted = path
-    call archive%rewind(archive_restore)
-    call exchange_run(archive, run)
-    status = archive%status
-    call check_tables(run%tables, run%model, run%folder, status)
-    if (run%plan%fields) call check_segments(run, status)
-  end subroutine restore
-
-  subroutine load(run, path, archive, status)
-    type(run_t), intent(inout) :: run
-    character(*), intent(in) :: path
-    type(archive_t), intent(inout) :: archive
-    type(status_t), intent(inout) :: status
-    type(restart_header_t) :: header
-    call run%storage%load_restart(path, header, archive, status)
-    if (failed(status)) return
-    if (header%version /= version) call fail(status, status_file, 'cannot restart from "'// &
-        path//'": version '//header%version//' of bipact wrote it, this is '//version)
-    if (header%deck_hash /= run%deck_hash) call fail(status, status_file, &
-        'cannot restart from "'//path//'": it belongs to another deck', &
-        hint='the deck, its includes and -D must be those of the run that wrote it')
-  end subroutine load
-
-  !> The matrix is factored for the block of nodes and the held dofs that were in force then,
-  !> and the counts are those of the run that stopped.
-  subroutine factor_again(run, status)
-    type(run_t), intent(inout) :: run
-    type(status_t), intent(inout) :: status
-    integer :: counts(2)
-    if (run%plan%motions) call hold_active(run)
-    counts = [run%factors, run%analyses]
-    call factor_matrix(run, .true., status)
-    run%factors = counts(1)
-    run%analyses = counts(2)
-    call system_clock(run%restart_tick)
-  end subroutine factor_again
+    hint = 'with *BIPACT_RESTART in the deck there would be a file to go on from'
+    if (.not. run%plan%restarts) return
+    call list_restarts(run%folder, paths)
+    hint = 'there is no restart file: ONSIG of *BIPACT_RESTART writes one on signals'
+    if (size(paths) > 0) hint = 'to go on: '//command_to_go_on()
+  end function how_to_go_on
 
 end module run_restart

@@ -23,6 +23,7 @@ contains
     integer :: k
     do k = 1, size(run%tables%file)
       if (.not. run%tables%file(k)%on) cycle
+      if (run%tables%file(k)%no_row_at == run%state%cycle) cycle
       if (.not. (last .or. row_is_due(run%tables%file(k), run%state%time, run%scheme%h))) cycle
       call write_one(run, k, status)
       call rows_done(run%tables%file(k), run%state%time, run%scheme%h)

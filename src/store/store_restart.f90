@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Restart files: HDF5 with one data set for each array of the archive, after 512 bytes of text
-!> that name the format, the deck, the moment, and the length and checksum of all that follows.
-!> A file that does not agree with them never comes before the library.
+!> Restart files: HDF5 with the deck as understood and one data set for each array of the
+!> archive, after 512 bytes of text that name the format, the hash of the deck, the moment, and
+!> the length and checksum of all that follows. A file that does not agree with them never comes
+!> before the library.
 module store_restart
   use base_archive, only: archive_t, archive_restore, archive_save
   use base_checksum, only: checksum_of_file, checksum_of_text, checksum_of_words
@@ -10,14 +11,14 @@ module store_restart
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: to_text
   use hdf5_file, only: file_t, create_in_memory, take_image, open_file, close_file, &
-      make_group, write_reals, read_reals, list_members
+      make_group, write_reals, read_reals, write_text, read_text, list_members
   use hdf5_series, only: write_text_attribute
   use output_storage, only: restart_header_t
   implicit none
   private
   public :: write_restart_file, read_restart_file
 
-  integer, parameter :: free = 512, format_number = 3, head = 400
+  integer, parameter :: free = 512, format_number = 4, head = 400
   character(*), parameter :: magic = 'bipact restart'
 
 contains
@@ -38,6 +39,7 @@ contains
     call write_text_attribute(file%id, 'version', header%version)
     call write_text_attribute(file%id, 'deck', header%deck_hash)
     call write_reals(file, '/time', [header%time], status)
+    call write_text(file, '/deck', header%echo, status)
     call make_group(file, '/archive', status)
     do k = 1, archive%n
       write (number, '(i8.8)') k
@@ -95,6 +97,7 @@ contains
     if (failed(status)) return
     call open_file(path, file, status)
     if (failed(status)) return
+    call read_text(file, '/deck', header%echo, status)
     call archive%rewind(archive_save)
     call list_members(file, '/archive', names)
     do k = 1, size(names)

@@ -312,7 +312,7 @@ def signals():
     child.send_signal(signal.SIGUSR1)
     code, errors = ended(child)
     check(code == 0, "SIGUSR1: the run goes on: %d %s" % (code, errors))
-    check(len(restart_files(folder)) == 1, "SIGUSR1: one restart file")
+    check(len(restart_files(folder)) == 2, "SIGUSR1: one restart file, and that of the end")
     check(not differences(whole, contents(folder)), "SIGUSR1: the same end")
     deck, step = long_run("*BIPACT_RESTART\n         0                             0\n")
     child = started(deck, folder)
@@ -372,11 +372,11 @@ def refused():
         assert text != head[:400] and len(text) == 400
         return text + fletcher(text) + head[416:] + rest
 
-    cases.append((relabelled(b"format    3", b"format    9"), "its format is 9"))
+    cases.append((relabelled(b"format    4", b"format    9"), "its format is 9"))
     version = re.search(rb"version (\S+)", head).group(1)
     cases.append((relabelled(version, b"0" * len(version)), "of bipact wrote it"))
     cases.append(
-        (relabelled(re.search(rb"deck (\S+)", head).group(1), b"0" * 16), "another deck")
+        (relabelled(re.search(rb"deck (\S+)", head).group(1), b"0" * 16), "its deck is not")
     )
     path = os.path.join(TMP, "bad.h5")
     for data, reason in cases:

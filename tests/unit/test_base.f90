@@ -28,6 +28,7 @@ program test_base
   call test_lists()
   call test_archive()
   call test_archive_grows()
+  call test_archive_agrees()
   call test_checksum()
   call test_files()
   call test_refusals()
@@ -286,6 +287,30 @@ contains
     call check_equal(wrong, 0, 'three hundred entries come back')
     call check_true(flag .and. all(flags .eqv. [.true., .false., .true.]), 'flags come back')
   end subroutine test_archive_grows
+
+  !> Entries that only one side wants: saved, they are passed over; not saved, they are not asked
+  !> for; the entry behind them comes back either way.
+  subroutine test_archive_agrees()
+    type(archive_t) :: archive
+    logical :: wanted(2), both
+    integer :: pass, k, part, last
+    do pass = 1, 4
+      wanted = [pass > 2, mod(pass, 2) == 0]
+      do k = 1, 2
+        call archive%rewind(merge(archive_save, archive_restore, k == 1))
+        part = merge(7, 0, k == 1)
+        last = merge(9, 0, k == 1)
+        call archive%agree('part.', wanted(k), both)
+        call check_true(both .eqv. (wanted(k) .and. (k == 1 .or. wanted(1))), 'both')
+        if (both) call archive%exchange('part.one', part)
+        if (both) call archive%exchange('part.two', part)
+        call archive%exchange('last', last)
+      end do
+      call check_true(.not. failed(archive%status), 'the archive agrees')
+      call check_equal(part, merge(7, 0, all(wanted)), 'what both want')
+      call check_equal(last, 9, 'what follows')
+    end do
+  end subroutine test_archive_agrees
 
   !> Words 1 and 2: sums 3 and 1 + 3 = 4. Every single bit counts, of text and of files, and so
   !> does the length of a file.
