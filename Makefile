@@ -126,7 +126,7 @@ clean: ## remove what was built
 	rm -rf build bin
 
 distclean: clean ## remove .venv and demonstration results too
-	rm -rf .venv .venv-pydyna .venv-vtk .venv-pandas demo.out
+	rm -rf .venv .venv-pydyna .venv-vtk .venv-vtk-before .venv-pandas demo.out
 
 help: ## show this list
 	@sed -n 's/^\([a-z][a-z -]*\):[^#]*## /\1: /p' $(firstword $(MAKEFILE_LIST)) \

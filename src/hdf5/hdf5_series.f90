@@ -12,13 +12,14 @@ module hdf5_series
       h5pset_shuffle_f, h5pset_fill_time_f, h5pset_chunk_cache_f, h5dcreate_f, h5dclose_f, &
       h5dset_extent_f, h5dget_space_f, h5dwrite_f, h5acreate_f, h5awrite_f, h5aclose_f, &
       h5tcopy_f, h5tset_size_f, h5tclose_f, h5kind_to_type, h5_integer_kind, h5_real_kind, &
-      h5p_dataset_create_f, h5p_dataset_access_f, h5d_fill_time_never_f, h5s_unlimited_f, &
-      h5s_scalar_f, h5s_select_set_f, h5t_fortran_s1, h5t_std_u8le
+      h5p_dataset_create_f, h5p_dataset_access_f, h5pset_virtual_f, h5d_fill_time_never_f, &
+      h5s_unlimited_f, h5s_scalar_f, h5s_select_set_f, h5t_fortran_s1, h5t_std_u8le
   use hdf5_file, only: file_t
   implicit none
   private
-  public :: create_series, append_rows, flush_series, close_series, open_attribute, &
-      write_attribute, close_attribute, write_text_attribute, write_list_attribute
+  public :: create_series, create_view, append_rows, flush_series, close_series, &
+      open_attribute, write_attribute, close_attribute, write_text_attribute, &
+      write_list_attribute
 
   type, public :: series_t
     integer(hid_t) :: set = -1
@@ -90,6 +91,43 @@ contains
     call h5pclose_f(creation, error)
     call h5sclose_f(space, error)
   end subroutine create_series
+
+  !> A data set at path that shows the rows of a series, which is at `source`, with their
+  !> components in another order: component k is number order(k) of the series. It grows with
+  !> the series and has no numbers of its own (virtual data set of HDF5 1.10).
+  subroutine create_view(file, path, series, source, order, status)
+    type(file_t), intent(in) :: file
+    character(*), intent(in) :: path, source
+    type(series_t), intent(in) :: series
+    integer, intent(in) :: order(:)
+    type(status_t), intent(inout) :: status
+    integer(hid_t) :: creation, view, from, set
+    integer(hsize_t) :: now(2), most(2), start(2), column(2)
+    integer :: k, error
+    if (failed(status)) return
+    now = [int(series%components, hsize_t), 0_hsize_t]
+    most = [int(series%components, hsize_t), h5s_unlimited_f]
+    column = [1_hsize_t, h5s_unlimited_f]
+    call h5screate_simple_f(2, now, view, error, most)
+    call h5screate_simple_f(2, now, from, error, most)
+    call h5pcreate_f(h5p_dataset_create_f, creation, error)
+    start = 0_hsize_t
+    do k = 1, size(order)
+      start(1) = int(k - 1, hsize_t)
+      call h5sselect_hyperslab_f(view, h5s_select_set_f, start, column, error)
+      start(1) = int(order(k) - 1, hsize_t)
+      call h5sselect_hyperslab_f(from, h5s_select_set_f, start, column, error)
+      call h5pset_virtual_f(creation, view, '.', source, from, error)
+    end do
+    call h5sclose_f(from, error)
+    call h5sclose_f(view, error)
+    call h5screate_simple_f(2, now, view, error, most)
+    call h5dcreate_f(file%id, path, series%kind, view, set, error, creation)
+    if (error < 0) call cannot_write(file, status)
+    if (error >= 0) call h5dclose_f(set, error)
+    call h5pclose_f(creation, error)
+    call h5sclose_f(view, error)
+  end subroutine create_view
 
   !> Adds rows (components, :); writes whenever a chunk is full.
   subroutine append_rows(file, series, rows, status)

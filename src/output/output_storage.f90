@@ -8,6 +8,13 @@ module output_storage
   implicit none
   private
 
+  !> A symmetric tensor has its six components in VTK's order, xx yy zz xy yz xz. Tensor6 of
+  !> XDMF is xx xy xz yy yz zz: in this group of a field file stand views of the tensors whose
+  !> component k is number xdmf_order(k) of the field's.
+  character(*), parameter, public :: xdmf_group = '/XDMF'
+  integer, parameter, public :: tensor_components = 6
+  integer, parameter, public :: xdmf_order(tensor_components) = [1, 4, 6, 2, 5, 3]
+
   !> What a restart file says of itself.
   type, public :: restart_header_t
     integer :: cycle = 0

@@ -8,7 +8,7 @@ module output_xdmf
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path, to_text
   use output_fields, only: fields_t
-  use output_storage, only: mesh_t, field_t
+  use output_storage, only: mesh_t, field_t, tensor_components, xdmf_group
   implicit none
   private
   public :: write_xdmf, segment_name
@@ -106,7 +106,8 @@ contains
         c = size(field%values, 1)
         columns = ''
         if (c > 1) columns = ' '//to_text(c)
-        place = trim(merge('Point', 'Cell ', field%at_nodes))
+        place = file//trim(merge('Point', 'Cell ', field%at_nodes))//'Data'
+        if (c == tensor_components) place = segment_name(segment)//':'//xdmf_group
         numbers = 'NumberType="Float" Precision="'//merge('4', '8', single)//'"'
         if (field%whole) numbers = 'NumberType="Int" Precision="8"'
         shape_text = to_text(size(field%values, 2))//columns
@@ -116,8 +117,8 @@ contains
             merge('2', '1', c > 1)//'" Format="XML">'
         t%middle = trim(merge(' 0 1 1 ', ' 1     ', c > 1))//' '//shape_text// &
             '</DataItem><DataItem Dimensions="'
-        t%tail = columns//'" '//numbers//' Format="HDF">'//file//place//'Data/'// &
-            trim(field%name)//'</DataItem></DataItem></Attribute>'//new_line('a')
+        t%tail = columns//'" '//numbers//' Format="HDF">'//place//'/'//trim(field%name)// &
+            '</DataItem></DataItem></Attribute>'//new_line('a')
       end associate
     end do
   end subroutine make_templates
@@ -240,8 +241,10 @@ contains
       text = 'Scalar'
     case (3)
       text = 'Vector'
+    case (tensor_components)
+      text = 'Tensor6'
     case default
-      text = 'Matrix'     ! a Tensor6 of XDMF has another order of components
+      text = 'Matrix'
     end select
   end function kind_of
 

@@ -7,10 +7,11 @@ module store_fields
   use base_status, only: status_t, fail, failed, status_file
   use hdf5, only: hid_t, h5gopen_f, h5gclose_f, h5fflush_f, h5f_scope_global_f
   use hdf5_file, only: file_t, create_file, close_file, make_group, opens
-  use hdf5_series, only: series_t, create_series, append_rows, flush_series, close_series, &
-      open_attribute, write_attribute, close_attribute, write_text_attribute, &
+  use hdf5_series, only: series_t, create_series, create_view, append_rows, flush_series, &
+      close_series, open_attribute, write_attribute, close_attribute, write_text_attribute, &
       write_list_attribute
-  use output_storage, only: mesh_t, field_t, segment_options_t
+  use output_storage, only: mesh_t, field_t, segment_options_t, tensor_components, xdmf_group, &
+      xdmf_order
   implicit none
   private
   public :: open_fields, add_frame, close_fields
@@ -75,6 +76,8 @@ contains
     call write_mesh(mesh, options, to, status)
     call make_group(to%file, '/VTKHDF/PointData', status)
     call make_group(to%file, '/VTKHDF/CellData', status)
+    if (any([(size(fields(k)%values, 1) == tensor_components, k=1, size(fields))])) &
+        call make_group(to%file, xdmf_group, status)
     call make_group(to%file, '/VTKHDF/Steps', status)
     call make_group(to%file, '/VTKHDF/Steps/PointDataOffsets', status)
     call make_group(to%file, '/VTKHDF/Steps/CellDataOffsets', status)
@@ -103,7 +106,7 @@ contains
     integer, intent(in) :: k
     type(fields_file_t), intent(inout) :: to
     type(status_t), intent(inout) :: status
-    character(:), allocatable :: place, kind
+    character(:), allocatable :: place, kind, path
     integer :: components, rows, frames
     place = merge('Point', 'Cell ', field%at_nodes)
     kind = 'REAL'
@@ -116,8 +119,11 @@ contains
     frames = 1
     if (.not. field%constant) frames = max(1, min(options%frames, &
         chunk_bytes/(rows*components*merge(4, 8, options%single))))
-    call create_series(to%file, '/VTKHDF/'//trim(place)//'Data/'//trim(field%name), kind, &
-        components, components == 1, rows*frames, options%compression, to%field(k), status)
+    path = '/VTKHDF/'//trim(place)//'Data/'//trim(field%name)
+    call create_series(to%file, path, kind, components, components == 1, rows*frames, &
+        options%compression, to%field(k), status)
+    if (components == tensor_components) call create_view(to%file, xdmf_group//'/'// &
+        trim(field%name), to%field(k), path, xdmf_order, status)
     call create_series(to%file, '/VTKHDF/Steps/'//trim(place)//'DataOffsets/'// &
         trim(field%name), 'INTEGER', 1, .true., to%list_chunk, 0, to%offset(k), status)
   end subroutine open_field

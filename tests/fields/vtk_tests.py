@@ -1,5 +1,6 @@
 """Field files as VTK and PyVista see them: VTKHDF file by file, XDMF over all of them, a large
-scene by PyVista. The numbers are those that h5py reads."""
+scene by PyVista. The numbers are those that h5py reads. Run with each version of VTK that a
+requirements-vtk*.txt names, which is the first argument."""
 
 import os
 import re
@@ -8,7 +9,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
-from scenes import BIPACT, TMP, bipact, check, finish, make_bars, run_text, show, within
+from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, run_text, show, within
 
 import fields
 
@@ -21,6 +22,9 @@ except ImportError as error:
     sys.exit(77)
 
 KIND = {"Point": "GetPointData", "Cell": "GetCellData"}
+# Rows and columns of the six components of a symmetric tensor in VTK's order.
+PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+WORST = []  # of the principal values, over the largest stress
 
 
 def fields_run(name, cards, **options):
@@ -34,8 +38,16 @@ def fields_run(name, cards, **options):
     return folder, fields.Fields(folder)
 
 
-def compare(output, run, k, what):
-    """A grid of VTK against frame k."""
+def tensors(values):
+    """The nine components, row by row, of tensors of six: what VTK makes of a Tensor6."""
+    full = np.zeros((len(values), 3, 3), values.dtype)
+    for c, (i, j) in enumerate(PLACES):
+        full[:, i, j] = full[:, j, i] = values[:, c]
+    return full.reshape(-1, 9)
+
+
+def compare(output, run, k, what, stress=6):
+    """A grid of VTK against frame k; stress: components that STRESS must have."""
     points = vtk_to_numpy(output.GetPoints().GetData())
     check(np.array_equal(points, run.points), what + ": points")
     wrong = 0
@@ -47,11 +59,44 @@ def compare(output, run, k, what):
         array = getattr(output, KIND[kind])().GetArray(name)
         check(array is not None, "%s: %s is there" % (what, name))
         if array is not None:
-            values = vtk_to_numpy(array).reshape(run.frame(k, name).shape)
+            wanted = run.frame(k, name)
+            if name == "STRESS":
+                components = array.GetNumberOfComponents()
+                check(components == stress, "%s: STRESS has %d" % (what, components))
+                wanted = tensors(wanted) if components == 9 else wanted
+            values = vtk_to_numpy(array).reshape(wanted.shape)
             check(
-                np.array_equal(values, run.frame(k, name), equal_nan=True),
+                np.array_equal(values, wanted, equal_nan=True),
                 "%s: %s of frame %d" % (what, name, k),
             )
+    if "PRINCIPAL" in run.names:
+        principal(output, run, k)
+
+
+def principal(output, run, k):
+    """How far the principal values of what VTK takes for the tensor STRESS are from PRINCIPAL:
+    not at all, if no two of its components have changed places."""
+    array = output.GetCellData().GetArray("STRESS")
+    if array.GetNumberOfComponents() == 9:
+        found = np.linalg.eigvalsh(vtk_to_numpy(array).reshape(-1, 3, 3))[:, ::-1]
+    else:
+        found = principal_by_vtk(output)
+    wanted, largest = run.frame(k, "PRINCIPAL"), np.abs(run.frame(k, "STRESS")).max()
+    off = np.inf if found is None else np.abs(found - wanted).max()
+    WORST.append(off / max(largest, 1e-300))
+
+
+def principal_by_vtk(output):
+    """Principal values as a filter of VTK has them, that takes tensors of six components."""
+    invariants = vtk.vtkTensorPrincipalInvariants()
+    invariants.GetCellDataArraySelection().EnableArray("STRESS")
+    invariants.SetInputData(output)
+    invariants.Update()
+    data = invariants.GetOutput().GetCellData()
+    names = [invariants.GetSigmaValueArrayName("STRESS", i) for i in (1, 2, 3)]
+    if not all(data.HasArray(name) for name in names):
+        return None
+    return np.array([vtk_to_numpy(data.GetArray(name)) for name in names]).T
 
 
 def vtkhdf(run, what):
@@ -81,16 +126,25 @@ def xdmf(folder, run, what):
     check(np.array_equal(times, run.times), what + ": XDMF, times")
     for k in range(0, len(run.times), max(1, len(run.times) // 5)):
         reader.UpdateTimeStep(run.times[k])
-        compare(reader.GetOutputDataObject(0), run, k, what + ", XDMF")
+        compare(reader.GetOutputDataObject(0), run, k, what + ", XDMF", stress=9)
 
 
 def main():
+    version = vtk.vtkVersion().GetVTKVersion()
+    with open(sys.argv[1]) as file:
+        check("vtk==" + version in file.read(), "VTK %s is what the list names" % version)
+    show("VTK %s, PyVista %s" % (version, pyvista.__version__))
     every = "*BIPACT_FIELD\n%10.3e\n       ALL\n"
     restart = "*BIPACT_RESTART\n%10d\n"
-    folder, run = fields_run("bars", every % 1e-9 + restart % 10, nx=6, ny=2, courant=0.5)
+    scene = dict(nx=6, ny=2, courant=0.5, poisson=0.3, mu=0.3, slide=0.3)
+    folder, run = fields_run("bars", every % 1e-9 + restart % 10, **scene)
     check(len(run.paths) > 2, "segments at restart points")
+    stress = np.abs(run.history("STRESS")).max(axis=(0, 1))
+    check(len(set(stress[:4])) == 4 and stress[:4].min() > 0.0, "four components differ")
     vtkhdf(run, "bars")
     xdmf(folder, run, "bars")
+    # Round-off of the eigenvalues of 3 x 3 matrices.
+    at_most(max(WORST), 1e-12, "principal values of what VTK takes for STRESS")
     triangles()
     pyvista_large()
 
