@@ -8,10 +8,17 @@ module base_files
   implicit none
   private
   public :: open_text, close_text
-  public :: file_exists, file_size, move_file, remove_file, cut_file, sync_file, list_files
+  public :: file_exists, file_size, move_file, remove_file, cut_file, sync_file, list_files, &
+      can_grow, can_reserve
 
   !> Long enough for every name that list_files gives.
   integer, parameter, public :: path_length = 4096
+
+  ! Flags of open(), and the errors that say that there is no room: on Linux.
+  integer(c_int), parameter :: write_only = 1_c_int
+  integer(c_int), parameter :: no_room(3) = [27_c_int, 28_c_int, 122_c_int]
+  character(*), parameter, public :: disk_full = 'the disk, a quota or a limit on the size '// &
+      'of files is full'
 
   !> glob_t of the C library begins so (POSIX); the rest is room for what it keeps for itself.
   type, bind(c) :: glob_t
@@ -45,6 +52,22 @@ module base_files
       integer(c_long), value, intent(in) :: offset
       integer(c_int), value, intent(in) :: from
     end function c_lseek
+    integer(c_int) function c_allocate(descriptor, first, length) &
+        bind(c, name='posix_fallocate')
+      import :: c_int, c_long
+      integer(c_int), value, intent(in) :: descriptor
+      integer(c_long), value, intent(in) :: first, length
+    end function c_allocate
+    integer(c_int) function c_cut(descriptor, length) bind(c, name='ftruncate')
+      import :: c_int, c_long
+      integer(c_int), value, intent(in) :: descriptor
+      integer(c_long), value, intent(in) :: length
+    end function c_cut
+    integer(c_int) function c_create(path, mode) bind(c, name='creat')
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value, intent(in) :: mode
+    end function c_create
     integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
       import :: c_int
       integer(c_int), value, intent(in) :: descriptor
@@ -138,6 +161,40 @@ contains
     if (c_truncate(path//c_null_char, int(bytes, c_long)) /= 0_c_int) &
         call fail(status, status_file, 'cannot shorten "'//path//'"')
   end subroutine cut_file
+
+  !> Is there room on the disk for so many bytes more at the end of a file, and may the file
+  !> become longer by `length` (with holes that take no room)? It stays as it is. True where the
+  !> system cannot tell.
+  logical function can_grow(path, bytes, length)
+    character(*), intent(in) :: path
+    integer(i8), intent(in) :: bytes, length
+    integer(c_int) :: descriptor, ignored
+    integer(c_long) :: there
+    can_grow = .true.
+    descriptor = c_open(path//c_null_char, write_only)
+    if (descriptor < 0_c_int) return
+    there = c_lseek(descriptor, 0_c_long, 2_c_int)
+    can_grow = all(c_allocate(descriptor, there, int(bytes, c_long)) /= no_room)
+    if (can_grow .and. length > bytes) can_grow = all(c_allocate(descriptor, &
+        there + int(length - 1_i8, c_long), 1_c_long) /= no_room)
+    ignored = c_cut(descriptor, there)
+    ignored = c_close(descriptor)
+  end function can_grow
+
+  !> Takes room on the disk for a file of so many bytes that will be written later over what is
+  !> there; makes it where there is none. False where there is no room for them.
+  logical function can_reserve(path, bytes)
+    character(*), intent(in) :: path
+    integer(i8), intent(in) :: bytes
+    integer(c_int), parameter :: rw_rw_rw = 438_c_int
+    integer(c_int) :: descriptor, ignored
+    can_reserve = .true.
+    descriptor = c_open(path//c_null_char, write_only)
+    if (descriptor < 0_c_int) descriptor = c_create(path//c_null_char, rw_rw_rw)
+    if (descriptor < 0_c_int) return   ! who writes it will learn why
+    can_reserve = all(c_allocate(descriptor, 0_c_long, int(bytes, c_long)) /= no_room)
+    ignored = c_close(descriptor)
+  end function can_reserve
 
   !> Has the system bring a file, or the names of a folder, to the disk.
   subroutine sync_file(path, status)

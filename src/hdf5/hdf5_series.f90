@@ -17,7 +17,7 @@ module hdf5_series
   use hdf5_file, only: file_t
   implicit none
   private
-  public :: create_series, create_view, append_rows, flush_series, close_series, &
+  public :: create_series, create_view, append_rows, hold_rows, flush_series, close_series, &
       open_attribute, write_attribute, close_attribute, write_text_attribute, &
       write_list_attribute
 
@@ -27,7 +27,7 @@ module hdf5_series
     integer :: components = 1
     integer(hsize_t) :: written = 0     !< rows on file
     integer :: held = 0                 !< rows in memory
-    integer :: room = 0                 !< rows of a chunk
+    integer :: room = 0                 !< rows that memory holds, whole chunks
     integer :: rank = 2
     logical :: single = .false.
     logical :: whole = .false.          !< integers
@@ -39,12 +39,13 @@ module hdf5_series
 contains
 
   !> A data set at path: kind is REAL, SINGLE, INTEGER or BYTE; (components, rows) in Fortran's
-  !> order, or (rows) where `flat`. chunk: rows of a chunk; compression 0 to 9.
-  subroutine create_series(file, path, kind, components, flat, chunk, compression, series, &
-      status)
+  !> order, or (rows) where `flat`. chunk: rows of a chunk on file; room: rows that are gathered
+  !> in memory, a multiple of it; compression 0 to 9.
+  subroutine create_series(file, path, kind, components, flat, chunk, room, compression, &
+      series, status)
     type(file_t), intent(in) :: file
     character(*), intent(in) :: path, kind
-    integer, intent(in) :: components, chunk, compression
+    integer, intent(in) :: components, chunk, room, compression
     logical, intent(in) :: flat
     type(series_t), intent(out) :: series
     type(status_t), intent(inout) :: status
@@ -52,18 +53,18 @@ contains
     integer(hsize_t) :: now(2), most(2), piece(2)
     integer :: rank, error, stat
     series%components = components
-    series%room = chunk
+    series%room = room
     series%single = kind == 'SINGLE'
     series%whole = kind == 'INTEGER' .or. kind == 'BYTE'
     stat = 0
     if (series%single) then
-      allocate (series%singles(components, chunk), stat=stat)
+      allocate (series%singles(components, room), stat=stat)
       series%kind = h5kind_to_type(real32, h5_real_kind)
     else if (series%whole) then
-      allocate (series%integers(components, chunk), stat=stat)
+      allocate (series%integers(components, room), stat=stat)
       series%kind = h5kind_to_type(i8, h5_integer_kind)
     else
-      allocate (series%reals(components, chunk), stat=stat)
+      allocate (series%reals(components, room), stat=stat)
       series%kind = h5kind_to_type(wp, h5_real_kind)
     end if
     if (stat /= 0) call fail(status, status_file, 'not enough memory to write "'// &
@@ -129,31 +130,38 @@ contains
     call h5sclose_f(view, error)
   end subroutine create_view
 
-  !> Adds rows (components, :); writes whenever a chunk is full.
+  !> Adds rows (components, :); writes whenever memory is full.
   subroutine append_rows(file, series, rows, status)
     type(file_t), intent(in) :: file
     type(series_t), intent(inout), target :: series
     real(wp), intent(in), contiguous :: rows(:, :)
     type(status_t), intent(inout) :: status
-    integer :: first, n, at
+    integer :: first, n
     first = 1
     do while (first <= size(rows, 2) .and. .not. failed(status))
       n = min(size(rows, 2) - first + 1, series%room - series%held)
-      at = series%held
-      if (series%single) then
-        call round(series%components*n, rows(:, first:first + n - 1), &
-            series%singles(:, at + 1:at + n))
-      else if (series%whole) then
-        series%integers(:, at + 1:at + n) = nint(rows(:, first:first + n - 1), i8)
-      else
-        call copy(series%components*n, rows(:, first:first + n - 1), &
-            series%reals(:, at + 1:at + n))
-      end if
-      series%held = at + n
+      call hold_rows(series, rows(:, first:first + n - 1))
       first = first + n
       if (series%held == series%room) call flush_series(file, series, status)
     end do
   end subroutine append_rows
+
+  !> Adds rows (components, :) in memory, where there is room for them.
+  pure subroutine hold_rows(series, rows)
+    type(series_t), intent(inout) :: series
+    real(wp), intent(in), contiguous :: rows(:, :)
+    integer :: n, at
+    n = size(rows, 2)
+    at = series%held
+    if (series%single) then
+      call round(series%components*n, rows, series%singles(:, at + 1:at + n))
+    else if (series%whole) then
+      series%integers(:, at + 1:at + n) = nint(rows, i8)
+    else
+      call copy(series%components*n, rows, series%reals(:, at + 1:at + n))
+    end if
+    series%held = at + n
+  end subroutine hold_rows
 
   !> Columns side by side as one list: one copy instead of many of three numbers.
   pure subroutine copy(n, from, to)
@@ -170,17 +178,20 @@ contains
     to = real(from, real32)
   end subroutine round
 
-  !> Writes what is held in memory.
-  subroutine flush_series(file, series, status)
+  !> Writes what is held in memory, or its first `rows`.
+  subroutine flush_series(file, series, status, rows)
     type(file_t), intent(in) :: file
     type(series_t), intent(inout), target :: series
     type(status_t), intent(inout) :: status
+    integer, intent(in), optional :: rows
     integer(hid_t) :: space, memory
     integer(hsize_t) :: total(2), start(2), count(2)
     type(c_ptr) :: place
-    integer :: rank, error
-    if (series%held == 0 .or. series%set < 0 .or. failed(status)) return
-    count = [series%components, series%held]
+    integer :: n, rank, error
+    n = series%held
+    if (present(rows)) n = min(n, rows)
+    if (n == 0 .or. series%set < 0 .or. failed(status)) return
+    count = [series%components, n]
     start = [0_hsize_t, series%written]
     total = [count(1), series%written + count(2)]
     if (series%single) then
@@ -205,8 +216,25 @@ contains
       call cannot_write(file, status)
     end if
     series%written = total(2)
-    series%held = 0
+    call drop_first(n, series)
   end subroutine flush_series
+
+  !> The first n rows in memory go, the rest comes to their place.
+  pure subroutine drop_first(n, series)
+    integer, intent(in) :: n
+    type(series_t), intent(inout) :: series
+    integer :: left
+    left = series%held - n
+    series%held = left
+    if (left == 0) return
+    if (series%single) then
+      series%singles(:, :left) = series%singles(:, n + 1:n + left)
+    else if (series%whole) then
+      series%integers(:, :left) = series%integers(:, n + 1:n + left)
+    else
+      series%reals(:, :left) = series%reals(:, n + 1:n + left)
+    end if
+  end subroutine drop_first
 
   !> Writes the rest, closes, and gives the memory back.
   subroutine close_series(file, series, status)

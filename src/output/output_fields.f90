@@ -29,6 +29,7 @@ module output_fields
     real(wp) :: next = zero                    !< a frame is due from next*interval on
     integer :: segment = 0                     !< number of the file that is open or comes next
     integer :: frames = 0
+    integer :: indexed = 0                     !< frames that there is room for in the index
     real(wp), allocatable :: time(:)           !< of all frames so far
     integer, allocatable :: segment_of(:)      !< of each frame
     real(wp), allocatable :: bytes(:)          !< of the segments that are closed

@@ -85,6 +85,7 @@ module output_storage
       type(segment_options_t), intent(in) :: options
       type(status_t), intent(inout) :: status
     end subroutine open_i
+    !> Adds a frame; fails when the file cannot be written any more.
     subroutine add_i(this, time, fields, status)
       import :: storage_t, field_t, wp, status_t
       class(storage_t), intent(inout) :: this
@@ -92,10 +93,12 @@ module output_storage
       type(field_t), intent(in) :: fields(:)
       type(status_t), intent(inout) :: status
     end subroutine add_i
-    !> Ends the file; does nothing when none is open.
-    subroutine close_i(this, status)
+    !> Ends the file; frames: how many it holds, which may be fewer than were added where that
+    !> or this failed. Without any the file is gone. Does nothing when none is open.
+    subroutine close_i(this, frames, status)
       import :: storage_t, status_t
       class(storage_t), intent(inout) :: this
+      integer, intent(out) :: frames
       type(status_t), intent(inout) :: status
     end subroutine close_i
   end interface

@@ -2,7 +2,8 @@
 !> A small XDMF file that shows the frames of all field files as one series in time, for readers
 !> that know no VTKHDF. It holds no numbers but the times: the rest is in the HDF5 files.
 module output_xdmf
-  use base_files, only: move_file, remove_file, file_size
+  use base_files, only: can_reserve, cut_file, disk_full, file_size, move_file, &
+      remove_file
   use base_format, only: real_writer_t, make_real_writer, put_real, put_integer, real_width
   use base_kinds, only: wp, i8
   use base_status, only: status_t, fail, failed, status_file
@@ -11,7 +12,7 @@ module output_xdmf
   use output_storage, only: mesh_t, field_t, tensor_components, xdmf_group
   implicit none
   private
-  public :: write_xdmf, segment_name
+  public :: write_xdmf, reserve_xdmf, drop_xdmf, segment_name
 
   integer, parameter :: text_size = 65536
 
@@ -43,6 +44,42 @@ contains
     if (number > 999) name = 'fields.'//to_text(number)//'.vtkhdf'
   end function segment_name
 
+  !> Takes room for the fields.xdmf of so many frames, so that a disk that fills up does not
+  !> leave frames without it; fails where there is none. write_xdmf uses it up.
+  subroutine reserve_xdmf(folder, mesh, fields, frames, status)
+    character(*), intent(in) :: folder
+    type(mesh_t), intent(in) :: mesh
+    type(fields_t), intent(in) :: fields
+    integer, intent(in) :: frames
+    type(status_t), intent(inout) :: status
+    integer(i8), parameter :: around = 512_i8, numbers = 64_i8
+    type(text_t) :: text
+    integer(i8) :: bytes
+    integer :: f
+    call make_templates(mesh, fields, fields%segment, .true., text)
+    bytes = len(text%mesh) + numbers
+    do f = 1, size(fields%field)
+      associate (t => text%template(f))
+        bytes = bytes + len(t%head) + len(t%middle) + len(t%tail) + numbers
+      end associate
+    end do
+    if (.not. can_reserve(new_path(folder), around + frames*bytes)) call fail(status, &
+        status_file, 'cannot write "'//join_path(folder, 'fields.xdmf')//'": '//disk_full)
+  end subroutine reserve_xdmf
+
+  !> Gives that room back.
+  subroutine drop_xdmf(folder)
+    character(*), intent(in) :: folder
+    call remove_file(new_path(folder))
+  end subroutine drop_xdmf
+
+  !> Where fields.xdmf is written before it takes the place of the one that is there.
+  pure function new_path(folder) result(path)
+    character(*), intent(in) :: folder
+    character(:), allocatable :: path
+    path = join_path(folder, 'fields.xdmf.tmp')
+  end function new_path
+
   !> Writes fields.xdmf of a folder anew; single: 32-bit numbers.
   subroutine write_xdmf(folder, mesh, fields, single, status)
     character(*), intent(in) :: folder
@@ -50,11 +87,12 @@ contains
     type(fields_t), intent(in) :: fields
     logical, intent(in) :: single
     type(status_t), intent(inout) :: status
-    character(:), allocatable :: path
+    character(:), allocatable :: path, new
     type(text_t) :: text
     integer :: k, f, first
     path = join_path(folder, 'fields.xdmf')
-    call open_text(path//'.tmp', text)
+    new = new_path(folder)
+    call open_text(new, text)
     call add(text, '<?xml version="1.0"?><Xdmf Version="3.0"><Domain>'//new_line('a')// &
         '<Grid Name="fields" GridType="Collection" CollectionType="Temporal">'//new_line('a'))
     call make_real_writer(text%writer)
@@ -75,14 +113,14 @@ contains
     call add(text, '</Grid></Domain></Xdmf>'//new_line('a'))
     call close_text(text)
     if (text%ios == 0) then
-      if (file_size(path//'.tmp') < text%written) text%ios = 1
+      if (file_size(new) < text%written) text%ios = 1
     end if
-    if (text%ios /= 0) &
-        call fail(status, status_file, 'cannot write "'//path//'": '//trim(text%reason))
     if (text%ios == 0) then
-      call move_file(path//'.tmp', path, status)
+      call cut_file(new, text%written, status)
+      call move_file(new, path, status)
     else
-      call remove_file(path//'.tmp')
+      call fail(status, status_file, 'cannot write "'//path//'": '//trim(text%reason))
+      call remove_file(new)
     end if
   end subroutine write_xdmf
 
@@ -143,7 +181,8 @@ contains
     character(*), intent(in) :: path
     type(text_t), intent(inout) :: text
     allocate (character(text_size) :: text%buffer)
-    open (newunit=text%unit, file=path, status='replace', action='write', access='stream', &
+    ! Over what is there: that is the room that reserve_xdmf has taken.
+    open (newunit=text%unit, file=path, status='unknown', action='write', access='stream', &
         form='unformatted', iostat=text%ios, iomsg=text%reason)
     text%is_open = text%ios == 0
   end subroutine open_text

@@ -15,7 +15,7 @@ module run_frames
       next_frame
   use output_storage, only: segment_options_t
   use output_table, only: next_due
-  use output_xdmf, only: write_xdmf, segment_name
+  use output_xdmf, only: write_xdmf, reserve_xdmf, drop_xdmf, segment_name
   use run_data, only: run_t
   implicit none
   private
@@ -49,13 +49,24 @@ contains
     call run%timers%enter(phase_output)
     if (run%plan%contact) call find_all_areas(run%model, run%contact, run%state%u)
     call fill_fields(run%model, run%system, run%state, run%contact, run%fields)
-    if (first) call open_segment(run, own)
+    if (run%fields%frames >= run%fields%indexed) call make_room(run, own)
+    if (first .and. .not. failed(own)) call open_segment(run, own)
     if (.not. failed(own)) call run%storage%add_frame(run%state%time, run%fields%field, own)
     if (.not. failed(own)) &
         call next_frame(run%model, run%state%time, run%scheme%h, run%fields)
     if (.not. failed(status)) status = own
     call run%timers%enter(phase_other)
   end subroutine keep_frame
+
+  !> Room on the disk for the index of the next frames.
+  subroutine make_room(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    integer :: frames
+    frames = run%fields%frames + max(32, run%fields%frames/8)
+    call reserve_xdmf(run%folder, run%mesh, run%fields, frames, status)
+    if (.not. failed(status)) run%fields%indexed = frames
+  end subroutine make_room
 
   subroutine open_segment(run, status)
     type(run_t), intent(inout) :: run
@@ -80,17 +91,32 @@ contains
         run%scheme%h)))
   end function expected_frames
 
-  !> Ends the file that is open, if it has a frame; the next frame begins another one.
+  !> Ends the file that is open, if it has a frame; the next frame begins another one. The index
+  !> names the frames that are on file, which are fewer where writing failed.
   subroutine end_segment(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    if (run%fields%frames == 0) return
-    if (run%fields%segment_of(run%fields%frames) /= run%fields%segment) return
-    call run%storage%close_segment(status)
-    run%fields%bytes = [run%fields%bytes, real(file_size(join_path(run%folder, &
-        segment_name(run%fields%segment))), wp)]
-    run%fields%segment = run%fields%segment + 1
-    call write_xdmf(run%folder, run%mesh, run%fields, run%model%requests%field%single, status)
+    type(status_t) :: own, index
+    integer :: on_file
+    associate (fields => run%fields)
+      on_file = count(fields%segment_of(:fields%frames) == fields%segment)
+      if (on_file > 0) then
+        fields%frames = fields%frames - on_file
+        call run%storage%close_segment(on_file, own)
+        fields%frames = fields%frames + on_file
+      end if
+      if (on_file > 0) then
+        fields%bytes = [fields%bytes, real(file_size(join_path(run%folder, &
+            segment_name(fields%segment))), wp)]
+        fields%segment = fields%segment + 1
+        call write_xdmf(run%folder, run%mesh, fields, run%model%requests%field%single, index)
+        if (.not. failed(own)) own = index
+      else
+        call drop_xdmf(run%folder)
+      end if
+      fields%indexed = 0
+    end associate
+    if (.not. failed(status)) status = own
   end subroutine end_segment
 
   !> Saves to or restores from the archive the frames so far; on the way back the next file is

@@ -58,10 +58,11 @@ contains
     call add_frame(time, fields, this%fields, status)
   end subroutine backend_add
 
-  subroutine backend_close(this, status)
+  subroutine backend_close(this, frames, status)
     class(hdf5_storage_t), intent(inout) :: this
+    integer, intent(out) :: frames
     type(status_t), intent(inout) :: status
-    call close_fields(this%fields, status)
+    call close_fields(this%fields, frames, status)
   end subroutine backend_close
 
 end module store_backend

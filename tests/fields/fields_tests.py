@@ -1,6 +1,8 @@
 """Field files against the tables, and what the card says against what is in them."""
 
+import glob
 import os
+import shutil
 import sys
 import xml.etree.ElementTree as tree
 
@@ -9,7 +11,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import scenes
-from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, run_text, table
+from full_disk import on_small_disk, one_message, starved
+from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, run_text, show, table
 
 import fields
 import make_scenes
@@ -227,31 +230,40 @@ def log(folder, word, text):
 
 
 def xdmf(run, folder):
-    """The sidecar points to the frames: each hyperslab of each attribute, read by hand."""
-    root = tree.parse(os.path.join(folder, "fields.xdmf")).getroot()
-    grids = root.findall("./Domain/Grid/Grid")
-    times = [float(g.find("Time").get("Value")) for g in grids]
-    check(np.array_equal(times, run.times), "XDMF: the times, to the last digit")
-    wrong = 0
-    for k, grid in enumerate(grids):
-        for attribute in grid.findall("Attribute"):
-            slab, data = attribute.find("DataItem").findall("DataItem")
-            numbers = np.array(slab.text.split(), int).reshape(3, -1)
-            name, path = data.text.split(":")
-            with h5py.File(os.path.join(folder, name), "r") as file:
-                first, count = int(numbers[0, 0]), int(numbers[2, 0])
-                values = file[path][first : first + count]
-            values_of_run = run.frame(k, attribute.get("Name"))
-            if values_of_run.shape[1:] == (6,):
-                check(attribute.get("AttributeType") == "Tensor6", "XDMF: STRESS is a Tensor6")
-                values_of_run = values_of_run[:, TENSOR6]
-            wrong += values.tobytes() != values_of_run.tobytes()
-    check(len(grids) > 10 and not wrong, "XDMF: %d attributes point elsewhere" % wrong)
+    """The sidecar points to the frames."""
+    check_index(run, folder, "XDMF")
+    check(len(run.times) > 10, "XDMF: %d frames" % len(run.times))
     # In the plane xz and yz are 0: where they come from shows in the definition of the view.
     with h5py.File(run.paths[0], "r") as file:
         parts = file["XDMF/STRESS"].virtual_sources()
     columns = {first_column(p.vspace): first_column(p.src_space) for p in parts}
     check([columns.get(k) for k in range(6)] == TENSOR6, "XDMF: the order of a Tensor6")
+
+
+def check_index(run, folder, what):
+    """Each hyperslab of each attribute of fields.xdmf, read by hand."""
+    root = tree.parse(os.path.join(folder, "fields.xdmf")).getroot()
+    grids = root.findall("./Domain/Grid/Grid")
+    times = [float(g.find("Time").get("Value")) for g in grids]
+    check(np.array_equal(times, run.times), what + ": the times, to the last digit")
+    wrong, files = 0, {}
+    for k, grid in enumerate(grids):
+        for attribute in grid.findall("Attribute"):
+            slab, data = attribute.find("DataItem").findall("DataItem")
+            numbers = np.array(slab.text.split(), int).reshape(3, -1)
+            name, path = data.text.split(":")
+            if name not in files:
+                files[name] = h5py.File(os.path.join(folder, name), "r")
+            first, count = int(numbers[0, 0]), int(numbers[2, 0])
+            values = files[name][path][first : first + count]
+            values_of_run = run.frame(k, attribute.get("Name"))
+            if values_of_run.shape[1:] == (6,):
+                check(attribute.get("AttributeType") == "Tensor6", what + ": Tensor6")
+                values_of_run = values_of_run[:, TENSOR6]
+            wrong += values.tobytes() != values_of_run.tobytes()
+    for file in files.values():
+        file.close()
+    check(len(grids) > 0 and not wrong, "%s: %d attributes point elsewhere" % (what, wrong))
 
 
 def first_column(space):
@@ -277,6 +289,101 @@ def wall():
     largest = np.abs(rows["fx"]).max()
     check(largest > 0, "the bar hits the wall")
     at_most(np.abs(found - rows["fx"]).max(), 1e-12 * largest, "wall: FORCE is RWFORC")
+
+
+def full_disk():
+    """A limit on the size of files, a small disk: exit 3, one message, and what is left are whole
+    frames of the whole run, as many as there is room for, and an index that names these."""
+    os.environ["ASAN_OPTIONS"] = "detect_leaks=0"  # of a file whose last write failed
+    for name, text, alone in cut_short_scenes():
+        deck, folder = os.path.join(TMP, name + ".k"), os.path.join(TMP, name)
+        with open(deck, "w") as file:
+            file.write(text)
+        code, errors, _ = bipact(deck, folder, "--quiet")
+        check(code == 0, errors)
+        whole = fields.Fields(folder)
+        frames = {name: whole.history(name) for name in whole.names}
+        size = max(os.path.getsize(p) for p in whole.paths)
+        cut = os.path.join(TMP, "cut")
+        for share in (0.1, 0.8):
+            shutil.rmtree(cut, ignore_errors=True)
+            done = starved(deck, cut, bytes_of_file=int(share * size))
+            what = "%s, files of %.0f %%" % (name, 100 * share)
+            one_message(*done, "cannot write", what)
+            least = frames_for(share * size, whole) if alone else share > 0.5
+            enough(cut, whole, frames, least, what)
+        for kilobytes in (100, 500, int(0.7e-3 * size)):
+            what = "%s, disk of %d kB" % (name, kilobytes)
+            done = on_small_disk("%dk" % kilobytes, deck, cut)
+            if done is None:
+                print("note: no small file system can be mounted here: NOT tested on one")
+                break
+            one_message(*done, "cannot write", what)
+            others = sum(os.path.getsize(os.path.join(cut, n)) for n in os.listdir(cut))
+            others -= sum(os.path.getsize(p) for p in vtkhdf_files(cut))
+            others += 32 * 2000 + 8192  # frames ahead of which the index has room, pages
+            room = 1024 * kilobytes - others
+            least = frames_for(room, whole) if alone else kilobytes > 500
+            enough(cut, whole, frames, least, what)
+
+
+def cut_short_scenes():
+    """(name, deck, is one field file all that grows?): every step, so that memory is full now
+    and then; compressed; with tables, which may fail first; with segments at restarts."""
+    options = dict(nx=40, ny=3, courant=0.4, touch=0.5, mu=0.3, slide=0.3)
+    plain, _ = deck_text("plain", "", tables=["glstat"], **options)
+    yield "fields", plain.replace("*END", field_card(1e-9, "U V STRESS PART") + "*END"), True
+    small = field_card(1e-9, "ALL", compression=4, bits=32)
+    yield "compressed", plain.replace("*END", small + "*END"), False
+    tables, _ = deck_text("tables", "", output="step", **options)
+    yield "tables", tables.replace("*END", field_card(1e-9, "U STRESS") + "*END"), False
+    segments = field_card(1e-9, "U STRESS") + "*BIPACT_RESTART\n       120\n"
+    yield "segments", plain.replace("*END", segments + "*END"), False
+
+
+def vtkhdf_files(folder):
+    return sorted(glob.glob(os.path.join(folder, "fields.*.vtkhdf")))
+
+
+def whole_frames(folder, whole, frames, what):
+    """How many frames are in a folder: all of them those of the whole run, all in the index, and
+    nothing else."""
+    left = [n for n in os.listdir(folder) if n.startswith("fields.")]
+    check(not [n for n in left if n.endswith(".tmp")], "%s: %s" % (what, left))
+    index = os.path.join(folder, "fields.xdmf")
+    if not vtkhdf_files(folder):
+        check(not left, "%s: nothing is left without frames: %s" % (what, left))
+        return 0
+    run = fields.Fields(folder)
+    count = len(run.times)
+    check(count > 0, what + ": a file has frames or is not there")
+    check(np.array_equal(run.times, whole.times[:count]), what + ": the first frames")
+    for name in run.names:
+        right = run.history(name).tobytes() == frames[name][:count].tobytes()
+        check(right, "%s: the numbers of %s" % (what, name))
+    check(os.path.exists(index), what + ": the index is there")
+    if os.path.exists(index):
+        check_index(run, folder, what)
+    return count
+
+
+def frames_for(room, whole):
+    """Frames that a field file of a size must hold: all but what its mesh and heads, the list
+    entries and two nodes of the tree of each data set (as store_fields reckons), and the rest of
+    a chunk of each field (128 KiB at most) may take."""
+    one = sum(whole.frame(0, n).nbytes for n in whole.names if n != "PART")
+    size, count = os.path.getsize(whole.paths[0]), len(whole.times)
+    sets = 2 * len(whole.names) + 6
+    around = size - count * one + sets * (8 * 256 + 5400)
+    around += (len(whole.names) + 1) * (2**17 + 200)
+    return max(0, int((room - around) // one))
+
+
+def enough(cut, whole, frames, least, what):
+    """What is left in a folder is right and not too little."""
+    found = whole_frames(cut, whole, frames, what)
+    show("%-36s %4d frames of %4d, at least %4d" % (what, found, len(whole.times), least))
+    check(found >= least, "%s: %d frames, %d expected" % (what, found, least))
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+from full_disk import one_message, starved
 from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, run_text, show, within
 
 import fields
@@ -145,8 +146,25 @@ def main():
     xdmf(folder, run, "bars")
     # Round-off of the eigenvalues of 3 x 3 matrices.
     at_most(max(WORST), 1e-12, "principal values of what VTK takes for STRESS")
+    cut_short()
     triangles()
     pyvista_large()
+
+
+def cut_short():
+    """Files that a full disk (a limit on their size) has cut short."""
+    path = os.path.join(TMP, "cut.k")
+    make_bars.write(path, nx=30, ny=2, courant=0.5)
+    with open(path) as file:
+        text = file.read().replace("*END", "*BIPACT_FIELD\n     1.e-9\n*END")
+    with open(path, "w") as file:
+        file.write(text)
+    folder = os.path.join(TMP, "cut")
+    one_message(*starved(path, folder, bytes_of_file=900_000), "cannot write", "cut short")
+    run = fields.Fields(folder)
+    check(10 < len(run.times) < 100, "cut short: %d frames" % len(run.times))
+    vtkhdf(run, "cut short")
+    xdmf(folder, run, "cut short")
 
 
 def triangles():

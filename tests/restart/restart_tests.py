@@ -5,7 +5,6 @@ import glob
 import os
 import random
 import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -19,6 +18,7 @@ for folder in ("support", "decks"):
     sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", folder))
 import contact_geometry as geometry
 import scenes
+from full_disk import on_small_disk, one_message, starved
 from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, show
 
 import fields
@@ -454,35 +454,6 @@ def cut_fields():
             check("has lost frames" in log.read(), "cut fields: the log tells")
 
 
-def limited(bytes_of_file=None, bytes_of_memory=None):
-    """Limits of a child: a write beyond the first fails as on a full disk."""
-
-    def set_limits():
-        if bytes_of_file:
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_of_file, bytes_of_file))
-        if bytes_of_memory:
-            resource.setrlimit(resource.RLIMIT_AS, (bytes_of_memory, bytes_of_memory))
-
-    return set_limits
-
-
-def starved(deck, folder, *options, **limits):
-    done = subprocess.run(
-        [BIPACT, deck, "-o", folder, "--quiet"] + list(options),
-        capture_output=True,
-        text=True,
-        preexec_fn=limited(**limits),
-    )
-    return done.returncode, done.stderr
-
-
-def one_message(code, errors, words, what):
-    """Exit 3, one message with these words."""
-    check(code == 3 and words in errors, "%s: %d %s" % (what, code, errors))
-    check(errors.count("bipact: ") == 1, "%s: one message: %s" % (what, errors))
-
-
 def whole_rows(folder):
     """No table ends within a row."""
     for path in glob.glob(os.path.join(folder, "*.tab")):
@@ -563,25 +534,14 @@ def starved_fields(folder):
 
 def full_disk(deck, whole):
     """The same on a small file system, where one can be made."""
-    small = os.path.join(TMP, "small")
-    os.makedirs(small)
-    made = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", "size=600k", "none", small], capture_output=True
-    )
-    if made.returncode:
+    copy = os.path.join(TMP, "large")
+    done = on_small_disk("600k", deck, copy)
+    if done is None:
         print("note: no small file system can be mounted here: NOT tested on one")
         return
-    try:
-        folder = os.path.join(small, "run")
-        code, errors, _ = bipact(deck, folder, "--quiet")
-        one_message(code, errors, "cannot write", "small disk")
-        whole_rows(folder)
-        files = restart_files(folder)
-        copy = os.path.join(TMP, "large")
-        shutil.copytree(folder, copy)
-    finally:
-        subprocess.run(["umount", small], check=True)
-    if files:
+    one_message(*done, "cannot write", "small disk")
+    whole_rows(copy)
+    if restart_files(copy):
         code, errors, _ = bipact(deck, copy, "--quiet", "--restart", "latest")
         check(code == 0, "from a small disk to a large one: %s" % errors)
         check(not differences(whole, contents(copy)), "the same end")
