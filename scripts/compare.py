@@ -119,6 +119,8 @@ class Run:
 
     All vectors are taken along the axis (from bar 1 to bar 2); tables not written are None."""
 
+    why = ""  # why the exact solution is not that of the run; none is drawn then
+
     def __init__(self, directory, meta):
         self.directory, self.meta = directory, meta
         self.axis = np.array(meta["axis"], dtype=float)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Draw histories of a run as PNG figures.
 
-For the impact of two bars: displacement of the contact end, energies and contact force, each
-over the exact solution (--kind, or the functions of the same names).  For any run: columns of
-one table over time (--table, --columns).  Dimensions in brackets: [L] length, [T] time,
+Displacement of the contact end, energies and contact force (--kind, or the functions of the
+same names), over the exact solution where the deck of the run has one: two bars that meet, or a
+bar and a wall (exact_scene.py).  Columns of any table over time (--table, --columns): one line
+for each node, part, side ... of the table.  Dimensions in brackets: [L] length, [T] time,
 [F] force; a deck has no other units.  Colours: Okabe and Ito (2008), safe for colour-blind
 eyes.
 """
@@ -11,6 +12,7 @@ eyes.
 import argparse
 import os
 import sys
+import textwrap
 
 import startup  # noqa: F401  before what is no part of Python
 import matplotlib
@@ -19,8 +21,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from analytic import TwoBars  # noqa: E402
-from compare import Run, load_meta, meta_of  # noqa: E402
+from compare import Run, load_meta  # noqa: E402
+from exact_scene import ECHO, scene_of  # noqa: E402
 from tables import TableError, read_run  # noqa: E402
 
 BLACK, ORANGE, SKY, GREEN, BLUE, RED, PINK = (
@@ -33,6 +35,7 @@ BLACK, ORANGE, SKY, GREEN, BLUE, RED, PINK = (
     "#CC79A7",
 )
 CYCLE = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK)
+DASHES = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (6, 1.5, 1, 1.5)))
 STYLE = {
     "figure.dpi": 150,
     "savefig.dpi": 150,
@@ -70,47 +73,120 @@ def unit_of(table, column):
     return ""
 
 
+# ---------------------------------------------------------------- runs
+
+
+class Tables:
+    """A run whose scene has no exact solution here: what the figures need of its tables."""
+
+    exact = None
+
+    def __init__(self, directory, why):
+        self.directory, self.why = directory, why
+        self.glstat = read_run(directory, "glstat")
+        self.rcforc = read_run(directory, "rcforc")
+        if self.rcforc is None or not len(self.rcforc):
+            self.rcforc = read_run(directory, "rwforc")
+
+    def force(self, prefix="f"):
+        """Times [T], size [F] of the force on the first side of the first contact or wall."""
+        rows = self.rcforc
+        for name in rows.id_columns:
+            rows = rows.select(**{name: rows[name].min()})
+        return rows["time"], np.hypot(rows[prefix + "x"], rows[prefix + "y"])
+
+    def every_step(self, times):
+        """True if these are the times of all steps."""
+        return self.rcforc.cycle is not None and len(times) == self.rcforc.cycle + 1
+
+
+def open_run(directory, meta=None):
+    """A run with its exact solution, if its deck has one. `meta` describes the scene (as
+    make_bars.py does); TableError where the deck of the run says otherwise."""
+    scene, why = scene_of(directory)
+    if scene is None and meta is None:
+        return Tables(directory, why)
+    if scene is not None and meta is not None:
+        check_meta(meta, scene)
+    run = Run(directory, meta or scene)
+    if scene is None and os.path.exists(os.path.join(directory, ECHO)):
+        run.why = why
+    return run
+
+
+def check_meta(meta, scene):
+    """Refuse the description of another scene than the deck's: 1e-6, the digits of decks."""
+    pairs = [("gap", meta["gap"], scene["gap"]), ("v0", meta["v0"], scene["v0"])]
+    bars = sorted(b["length"] for b in meta["bars"]), sorted(b["length"] for b in scene["bars"])
+    pairs += [("length", a, b) for a, b in zip(*bars)]
+    for name, given, found in pairs:
+        if not np.isclose(given, found, rtol=1e-6, atol=1e-9 * scene["L"]):
+            raise TableError(
+                "the description is of another scene: %s %g, in the deck of the run %g"
+                % (name, given, found)
+            )
+
+
 # ---------------------------------------------------------------- frame of a figure
 
 
-def new_figure(title, caption, panels=1):
-    """Figure with title, one line on what to look for, and panels side by side."""
+def new_figure(title, caption, layout="A", heights=(1.0,)):
+    """Figure with title, what to look for, and panels; returns the figure and its axes.
+
+    layout: rows of panels as subplot_mosaic of matplotlib has them, "AABB;CDEF"; heights: of
+    the rows."""
     plt.rcParams.update(STYLE)
-    figure, axes = plt.subplots(
-        1, panels, figsize=(8.6 if panels == 1 else 13.0, 5.4), sharey=panels > 1, squeeze=False
+    width = 8.6 if layout == "A" else 13.0
+    height = 5.4 * sum(heights)
+    figure, axes = plt.subplot_mosaic(
+        layout, figsize=(width, height), gridspec_kw={"height_ratios": heights}
     )
-    figure.text(0.02, 0.975, title, fontsize=15, ha="left", va="top", weight="bold")
-    figure.text(0.02, 0.915, caption, fontsize=11.5, ha="left", va="top", color="#444444")
-    return figure, list(axes[0])
+    text = textwrap.fill(caption, int(11.6 * width))
+    figure.text(0.1 / width, 1.0 - 0.12 / height, title, fontsize=15, va="top", weight="bold")
+    figure.text(
+        0.1 / width, 1.0 - 0.46 / height, text, fontsize=11.5, va="top", color="#444444"
+    )
+    lines = text.count("\n") + 1 if text else 0
+    figure.below = 1.0 - (0.50 + 0.22 * lines) / height  # where the panels end
+    return figure, list(axes.values())
 
 
 def finish(figure, path):
     """Lay out, save as PNG and close; returns the path."""
-    figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.88))
+    figure.tight_layout(rect=(0.0, 0.0, 1.0, figure.below))
     figure.savefig(path)
     plt.close(figure)
     return path
 
 
 def label(axes, x, y, legend=True):
-    """Axis names with their dimensions, and the legend."""
+    """Axis names with their dimensions, and the legend: beside the panel where it is long."""
     axes.set_xlabel(x)
     axes.set_ylabel(y)
-    if legend:
+    lines = axes.get_legend_handles_labels()[1]
+    if legend and len(lines) > 6:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
+    elif legend:
         axes.legend(loc="best")
 
 
-def contact_window(axes, exact):
+def contact_window(axes, run):
     """Grey band: the exact time of contact."""
-    if np.isfinite(exact.release):
+    if not run.why and np.isfinite(run.exact.release):
         axes.axvspan(
-            exact.touch,
-            exact.release,
+            run.exact.touch,
+            run.exact.release,
             color="#999999",
             alpha=0.15,
             lw=0,
             label="exact contact time",
         )
+
+
+def exact_curve(axes, run, t, values, zorder=2):
+    """A broad grey line, where the exact solution is that of the run."""
+    if not run.why:
+        axes.plot(t, values, color=BLACK, lw=3.2, alpha=0.45, zorder=zorder, label="exact")
 
 
 def need(run, table, name):
@@ -121,29 +197,35 @@ def need(run, table, name):
 
 def fine_times(run):
     """Times for the exact curves [T]."""
-    return np.linspace(0.0, run.exact.tend, 2001)
+    return np.linspace(0.0, run.exact.tend, 2001) if not run.why else np.zeros(0)
 
 
-# ---------------------------------------------------------------- figures of the two bars
+def with_reason(caption, run):
+    """A caption, and why there is no exact curve."""
+    return caption if not run.why else "No exact curve: %s." % run.why
+
+
+# ---------------------------------------------------------------- figures of an impact
 
 
 def displacement(run, path, name, caption=None):
     """Displacement of the contact end, computed over exact."""
+    if isinstance(run, Tables):
+        raise TableError(
+            "which end meets another is not known (%s): draw --table nodout --columns ux, or "
+            "give the scene by --meta" % run.why
+        )
     need(run, run.nodout, "nodout")
     figure, (axes,) = new_figure(
         "Displacement of the point of impact, %s" % name,
-        caption or "Look at the plateau: the end must stand still while the bars touch.",
+        with_reason(
+            caption or "Look at the plateau: the end must stand still while the bars touch.",
+            run,
+        ),
     )
     t, u = run.tip()
-    contact_window(axes, run.exact)
-    axes.plot(
-        fine_times(run),
-        run.exact.tip(fine_times(run)),
-        color=BLACK,
-        lw=3.2,
-        alpha=0.45,
-        label="exact",
-    )
+    contact_window(axes, run)
+    exact_curve(axes, run, fine_times(run), run.exact.tip(fine_times(run)))
     axes.plot(t, u, color=BLUE, lw=1.4, label="computed")
     label(axes, "time [T]", "displacement [L]")
     return finish(figure, path)
@@ -154,45 +236,42 @@ def energies(run, path, name, caption=None):
     need(run, run.glstat, "glstat")
     figure, (axes,) = new_figure(
         "Energies, %s" % name,
-        caption or "Look at the total: it must stay at its initial value and never rise.",
+        with_reason(
+            caption or "Look at the total: it must stay at its initial value and never rise.",
+            run,
+        ),
     )
-    exact_t = np.linspace(0.0, run.exact.tend, 401)
-    exact = run.exact.energies(exact_t)
     for column, text, colour in (
         ("total", "total", BLACK),
         ("kinetic", "kinetic", BLUE),
         ("internal", "strain", RED),
     ):
         axes.plot(run.glstat["time"], run.glstat[column], color=colour, label=text)
-    for values, colour, text in zip(exact, (BLUE, RED), ("exact kinetic", "exact strain")):
-        axes.plot(exact_t, values, color=colour, ls=(0, (2, 3)), lw=1.3, alpha=0.8, label=text)
+    if not run.why:
+        t = np.linspace(0.0, run.exact.tend, 401)
+        for values, colour, text in zip(
+            run.exact.energies(t), (BLUE, RED), ("exact kinetic", "exact strain")
+        ):
+            axes.plot(t, values, color=colour, ls=(0, (2, 3)), lw=1.3, alpha=0.8, label=text)
     label(axes, "time [T]", "energy [F L]")
     return finish(figure, path)
 
 
 def force_panel(axes, run, name, top):
     """Raw force of the step, two-step mean and exact force in one panel."""
-    need(run, run.rcforc, "rcforc or rwforc")
     t, raw = run.force("f")
-    scale = np.max(run.exact.force_steps)
-    contact_window(axes, run.exact)
+    contact_window(axes, run)
     axes.plot(t, raw, color=SKY, lw=0.7, zorder=2, label="force of the step")
-    exact_t = fine_times(run)
-    axes.plot(
-        exact_t,
-        run.exact.force(exact_t),
-        color=BLACK,
-        lw=3.2,
-        alpha=0.45,
-        zorder=3,
-        label="exact",
-    )
+    if not run.why:
+        exact_curve(axes, run, fine_times(run), run.exact.force(fine_times(run)), zorder=3)
     axes.plot(t, run.force("fm")[1], color=RED, lw=1.3, zorder=4, label="mean of two steps")
-    axes.set_ylim(-0.15 * scale, top * scale)
-    if raw.max() > top * scale:
+    limit = top * (np.max(raw) if run.why else np.max(run.exact.force_steps))
+    if not run.why:
+        axes.set_ylim(-0.06 * limit, limit)
+    if not run.why and raw.max() > limit:
         axes.annotate(
             "cut off; raw peak %.3g" % raw.max(),
-            (t[raw.argmax()], top * scale),
+            (t[raw.argmax()], limit),
             xytext=(8, -14),
             textcoords="offset points",
             fontsize=11,
@@ -202,39 +281,115 @@ def force_panel(axes, run, name, top):
     axes.set_title(name, loc="left", fontsize=12)
 
 
-def forces(runs, path, caption=None, top=2.6):
-    """Contact force of several runs {name: run} side by side; `top` cuts the force axis [-]."""
-    figure, panels = new_figure(
-        "Contact force",
-        caption
-        or "The raw force may alternate from step to step (period 2); its two-step mean must "
-        "follow the exact pulse.",
-        panels=len(runs),
-    )
+def steps_panel(axes, run, name, row):
+    """Steps around the end of row `row` of the forces: the force of each as a level over the
+    step, the mean of two at the end of the second."""
+    (t, raw), mean = run.force("f"), run.force("fm")[1]
+    part = slice(max(0, row - 4), row + 6)
+    steps = (t - t[row]) / run.dt
+    axes.step(steps[part], raw[part], where="pre", color=SKY, lw=1.6)
+    fine = np.linspace(t[part][0], t[part][-1], 801)
+    exact_curve(axes, run, (fine - t[row]) / run.dt, run.exact.force(fine), zorder=1)
+    axes.plot(steps[part], mean[part], "o-", ms=4, color=RED, lw=1.0)
+    axes.set_title("%s, t = %.4g" % (name, t[row]), loc="left", fontsize=11)
+
+
+def force_panels(panels, runs, top):
+    """One panel for each run {name: run}, with the same force axis."""
     for axes, (name, run) in zip(panels, runs.items()):
+        need(run, run.rcforc, "rcforc or rwforc")
+        if axes is not panels[0]:
+            axes.sharey(panels[0])
         force_panel(axes, run, name, top)
         label(axes, "time [T]", "contact force [F]" if axes is panels[0] else "", legend=False)
     panels[-1].legend(loc="upper right")
+
+
+def forces(runs, path, caption=None, top=2.6):
+    """Contact force of several runs {name: run} side by side; `top` cuts the force axis [-]."""
+    why = next((run for run in runs.values() if run.why), None)
+    text = caption or (
+        "The raw force may alternate from step to step (period 2); its two-step mean must "
+        "follow the exact pulse."
+    )
+    text = with_reason(text, why) if why else text
+    figure, panels = new_figure("Contact force", text, "ABCDEFGH"[: len(runs)])
+    force_panels(panels, runs, top)
+    return finish(figure, path)
+
+
+def forces_and_ends(runs, path, caption, top=2.6):
+    """Contact force of two runs {name: run}, and below each the steps at touch and release."""
+    figure, panels = new_figure("Contact force", caption, "AABB;CDEF", (1.0, 0.62))
+    force_panels(panels[:2], runs, top)
+    for k, run in enumerate(runs.values()):
+        raw = run.force("f")[1]
+        loaded = np.flatnonzero(raw > 1e-6 * raw.max())  # not the round-off of a touch
+        for axes, name, row in (
+            (panels[2 + 2 * k], "touch", loaded[0] - 1),
+            (panels[3 + 2 * k], "release", loaded[-1]),
+        ):
+            steps_panel(axes, run, name, row)
+            y = "contact force [F]" if axes is panels[2] else ""
+            label(axes, "steps from the " + name, y, legend=False)
     return finish(figure, path)
 
 
 # ---------------------------------------------------------------- any table
 
 
+MOST_LINES = 14  # that a figure keeps apart
+
+
+def rows_by_id(table, ids):
+    """[(text, table)] of the rows to draw, each with its own ids, and what they have in common.
+    ids: {column: values} that are wanted, of other columns all. The text names the columns in
+    which the rows differ."""
+    for name, wanted in ids.items():
+        table = table.rows(np.isin(table[name], wanted))
+    if not len(table):
+        raise TableError("%s: no such rows" % table.path)
+    columns = table.id_columns
+    if not columns:
+        return [("", table)], ""
+    keys = np.unique(table.vectors(*columns), axis=0)
+    differ = [c for c, name in enumerate(columns) if len(set(keys[:, c])) > 1]
+    if len(differ) > 1 and len(set(keys[:, differ[0]])) == len(keys):
+        differ = differ[:1]  # the part of an element follows from it
+    parts = []
+    for key in keys[:MOST_LINES]:
+        rows = table.select(**dict(zip(columns, key)))
+        parts.append((", ".join("%s %d" % (columns[c], key[c]) for c in differ), rows))
+    same = [c for c in range(len(columns)) if c not in differ and len(set(keys[:, c])) == 1]
+    common = ", ".join("%s %d" % (columns[c], keys[0, c]) for c in same)
+    if len(keys) > MOST_LINES:
+        common += "%sthe first %d of %d" % (", " if common else "", MOST_LINES, len(keys))
+    return parts, common
+
+
 def columns(directory, table_name, names, path, x="time", ids=None, title=None, caption=None):
-    """Columns of a table over time; `ids` = {id column: value} picks the rows."""
+    """Columns of a table over time, one line for each node, part, side ... of it; `ids` = {id
+    column: value or values} picks some."""
     table = read_run(directory, table_name)
     if table is None:
         raise TableError("%s: no table %s" % (directory, table_name))
-    table = table.select(**(ids or {}))
-    if not len(table):
-        raise TableError("%s: no such rows" % table.path)
-    picked = ", ".join("%s %d" % pair for pair in (ids or {}).items())
+    parts, common = rows_by_id(table, ids or {})
     figure, (axes,) = new_figure(
-        title or "%s %s" % (table_name, picked), caption or "%s over %s" % (", ".join(names), x)
+        title or ", ".join(filter(None, ("%s of %s" % (", ".join(names), table_name), common))),
+        caption or "",
     )
-    for name, colour in zip(names, CYCLE * (1 + len(names) // len(CYCLE))):
-        axes.plot(table[x], table[name], color=colour, label=name + unit_of(table_name, name))
+    lines = [(name, of, rows) for name in names for of, rows in parts]
+    for k, (name, of, rows) in enumerate(lines):
+        # Dashes over wider lines: ids that do the same are both seen.
+        layer = k % len(DASHES) if len(parts) > 1 else 0
+        axes.plot(
+            rows[x],
+            rows[name],
+            color=CYCLE[k % len(CYCLE)],
+            ls=DASHES[layer],
+            lw=(1.8 if len(parts) == 1 else 2.6 - 0.5 * layer),
+            label=", ".join(filter(None, (name + unit_of(table_name, name), of))),
+        )
     label(axes, x + unit_of(table_name, x), axis_name(table_name, names))
     return finish(figure, path)
 
@@ -269,34 +424,28 @@ def make_parser():
         "--id",
         action="append",
         default=[],
-        metavar="NAME=ID",
-        help="rows to draw, e.g. node=201; repeatable",
+        metavar="NAME=ID[,ID]",
+        help="rows to draw, e.g. node=201 (all, each as its own line); repeatable",
     )
     parser.add_argument(
         "--kind",
         choices=("displacement", "energy", "force"),
-        help="figure of the two-bar impact instead of a table",
+        help="figure of an impact instead of a table",
     )
     parser.add_argument(
         "--meta",
         metavar="FILE",
-        help="scene of --kind, as written by make_bars.py --meta (default: the "
-        "paper's data, gap 0.02)",
+        help="scene of --kind, as written by make_bars.py --meta (default: what the deck of "
+        "the run says)",
     )
     parser.add_argument("--title", help="title of the figure")
     parser.add_argument("--caption", help="line under the title")
     return parser
 
 
-def paper_scene():
-    """Scene of the paper's test in our reading."""
-    d = TwoBars()
-    return meta_of("two_bars", d.length, d.speed, d.v0, d.gap, d.area, d.density)
-
-
 def draw_kind(a):
-    """Figure of the two-bar impact."""
-    run = Run(a.run, load_meta(a.meta) if a.meta else paper_scene())
+    """Figure of an impact."""
+    run = open_run(a.run, load_meta(a.meta) if a.meta else None)
     name = a.title or os.path.basename(os.path.normpath(a.run))
     if a.kind == "force":
         return forces({name: run}, a.path, a.caption)
@@ -306,7 +455,8 @@ def draw_kind(a):
 
 def draw_table(a):
     """Figure of table columns."""
-    ids = {name: int(value) for name, value in (text.split("=") for text in a.id)}
+    pairs = (text.split("=") for text in a.id)
+    ids = {name: [int(n) for n in values.split(",")] for name, values in pairs}
     return columns(a.run, a.table, a.columns.split(","), a.path, a.x, ids, a.title, a.caption)
 
 

@@ -73,6 +73,16 @@ class Table:
             keep &= self[name] == value
         return self.rows(keep)
 
+    @property
+    def id_columns(self):
+        """Names of the columns that say of what a row is: those of ids right after the time."""
+        found = []
+        for name in self.names[1:]:
+            if name not in ID_COLUMNS:
+                break
+            found.append(name)
+        return found
+
     def ids(self, name):
         """The different values of an id column, sorted."""
         return np.unique(self[name])

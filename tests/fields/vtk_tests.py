@@ -10,7 +10,18 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 from full_disk import one_message, starved
-from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, run_text, show, within
+from scenes import (
+    BIPACT,
+    TMP,
+    at_most,
+    bipact,
+    check,
+    finish,
+    make_bars,
+    run_text,
+    show,
+    within,
+)
 
 import fields
 
