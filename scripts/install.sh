@@ -59,7 +59,7 @@ cp scripts/completion.bash "$scratch/bipact-fclib"
 put 644 "$completions" "$scratch/bipact" "$scratch/bipact-fclib"
 
 # Scripts that work on the sources stay with them.
-for script in scripts/*.py scripts/setup-venv.sh; do
+for script in scripts/*.py scripts/setup-venv.sh scripts/setup-gmsh.sh; do
   case ${script##*/} in
     check_style.py | collide*.py | draw_rows.py | make_cards.py) continue ;;
   esac
@@ -67,7 +67,7 @@ for script in scripts/*.py scripts/setup-venv.sh; do
   [ ! -x "$script" ] || mode=755
   put "$mode" "$share/scripts" "$script"
 done
-put 644 "$share" requirements.txt
+put 644 "$share" requirements.txt requirements-gmsh.txt
 for folder in input input/*/; do
   put 644 "$share/${folder%/}" "$folder"/*.*
 done

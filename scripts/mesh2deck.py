@@ -22,6 +22,7 @@ import argparse
 import os
 import sys
 
+import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
 from cards import NODE, SHELL, TEN, card, listed, names
@@ -149,8 +150,6 @@ def main(argv=None):
     except MeshError as problem:
         print("mesh2deck.py: %s: %s" % (a.mesh, problem), file=sys.stderr)
         return 2
-    except BrokenPipeError:  # who reads the summary has seen enough
-        sys.stdout = None
     except OSError as problem:
         print("mesh2deck.py: %s: %s" % (problem.filename, problem.strerror), file=sys.stderr)
         return 3

@@ -288,8 +288,8 @@ contains
     call check_true(flag .and. all(flags .eqv. [.true., .false., .true.]), 'flags come back')
   end subroutine test_archive_grows
 
-  !> Entries that only one side wants: saved, they are passed over; not saved, they are not asked
-  !> for; the entry behind them comes back either way.
+  !> Entries that only one side wants: saved, they are passed over; not saved, they are not
+  !> asked for; the entry behind them comes back either way.
   subroutine test_archive_agrees()
     type(archive_t) :: archive
     logical :: wanted(2), both
