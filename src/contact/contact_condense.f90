@@ -57,7 +57,7 @@ contains
     type(contact_t), intent(inout) :: contact
     integer :: a, k
     if (contact%w_is_current) return
-    if (checks_on) call check_rows(contact)
+    if (checks_on) call check_points(contact)
     contact%tally%w_builds = contact%tally%w_builds + 1
     contact%w_is_current = .true.
     associate (rows => contact%rows)
@@ -75,7 +75,7 @@ contains
   end subroutine build_w
 
   !> Assertions on what W is made of: S^-1 of the interface as it is, rows on it alone.
-  subroutine check_rows(contact)
+  subroutine check_points(contact)
     type(contact_t), intent(in) :: contact
     character(*), parameter :: place = 'build_w'
     integer :: points, m
@@ -90,7 +90,7 @@ contains
           all(ieee_is_finite(rows%normal(:, :rows%n))), place, &
           'weights and normals are finite')
     end associate
-  end subroutine check_rows
+  end subroutine check_points
 
   !> Rows whose normal flexibility n' S^-1 n is zero to round-off.
   pure subroutine mark_rigid(schur_inverse, rows)

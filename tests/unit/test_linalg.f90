@@ -34,7 +34,7 @@ program test_linalg
   end do
   call test_unknown_names()
   call test_scalar_product()
-  deallocate (dense)
+  deallocate (dense, engines)
   call test_end()
 
 contains
