@@ -16,6 +16,7 @@ import math
 import os
 import sys
 
+import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
 ECHO = "deck.echo.k"

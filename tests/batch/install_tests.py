@@ -35,7 +35,24 @@ PLACES = {
     "name=a,b,c": "mu=0.1,0.2",
     "PROBLEM.hdf5": "contact.hdf5",
     "SOLUTION.hdf5": "solution.hdf5",
+    "IN": "plate.inp",
+    "OUT.k": "other.k",
+    "disc.msh": "plate.inp",
+    "disc.k": "plate.k",
+    "disc_scene.k": "plate_scene.k",
+    "disc_scene.out": "plate_scene.out",
 }
+PLATE = """*NODE
+1, 0.0, 0.0
+2, 1.0, 0.0
+3, 2.0, 0.0
+4, 0.0, 1.0
+5, 1.0, 1.0
+6, 2.0, 1.0
+*ELEMENT, TYPE=CPS4, ELSET=plate
+1, 1, 2, 5, 4
+2, 2, 3, 6, 5
+"""
 # Of the tree of sources, which is not installed.
 STAYS = ("check_style.py", "collide.py", "draw_rows.py", "make_cards.py", "make_doc.sh")
 
@@ -148,6 +165,8 @@ def prepare():
     with open(os.path.join(WORK, "run.k"), "w") as file:
         file.write(text.replace("*END", cards + "*END"))
     shutil.copy(os.path.join(ROOT, "input", "two_bars", "mesh.k"), WORK)
+    with open(os.path.join(WORK, "plate.inp"), "w") as file:
+        file.write(PLATE)
     with open(os.path.join(WORK, "comma.k"), "w") as file:
         file.write("*KEYWORD\n*PARAMETER\n$ a comment\nRmu,0.3,Cmass,LUMPED\n*END\n")
     code, _, errors = call(
@@ -165,13 +184,14 @@ def shown_commands():
     """(page, command) of all that the pages show and that is for users."""
     names = ["README.md", "input/README.md"]
     names += sorted("doc/" + n for n in os.listdir(ROOT + "/doc") if n.endswith(".md"))
-    start = r"(?:(?:bin/)?bipact(?:-fclib)? |scripts/\w+\.(?:py|sh)\b)"
+    start = r"(?:\.venv/bin/python )?(?:(?:bin/)?bipact(?:-fclib)? |scripts/\w+\.(?:py|sh)\b)"
     for name in names:
         with open(os.path.join(ROOT, name), encoding="utf-8") as file:
             text = file.read()
         lines = re.findall(r"(?m)^    (%s.*)$" % start, text)
         spans = [s for s in re.findall("`([^`\n]+)`", text) if re.match(start, s)]
         for command in lines + spans:
+            command = command.removeprefix(".venv/bin/python ")
             yield name, re.sub(r"\s{2,}#.*|[\s.]+$", "", command)
 
 
@@ -181,7 +201,10 @@ def runnable(command):
     words = command.split()
     if len(words) < 2 or "[" in command or os.path.basename(words[0]) in STAYS:
         return None
-    if not HDF5 and (words[0].endswith("fclib") or {"RUN", "--restart"} & set(words)):
+    needs_hdf5 = words[0].endswith("fclib") or re.search(
+        r"\bRUN\b|--restart|disc_scene", command
+    )
+    if needs_hdf5 and not HDF5:
         return None
     for place in sorted(PLACES, key=len, reverse=True):
         words = [
