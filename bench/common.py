@@ -153,7 +153,8 @@ def study_folders(name, a):
     out = a.out or (store if a.quick else os.path.join(ROOT, "doc", name))
     os.makedirs(store, exist_ok=True)
     os.makedirs(out, exist_ok=True)
-    kept = os.path.join(store, "runs.jsonl")
-    if a.fresh and os.path.exists(kept):
-        os.remove(kept)
+    for name in ("runs.jsonl", "start.json"):
+        kept = os.path.join(store, name)
+        if a.fresh and os.path.exists(kept):
+            os.remove(kept)
     return store, out

@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
 # The study of error against time runs from end to end in its short form: every run done, no growth
-# of energy with THETA, exact where the method is (dispersion-tuned mass at Courant number 1).
+# of energy with THETA, exact where the method is (dispersion-tuned mass at Courant number 1); its
+# figures draw fronts, and names that do not cover each other.
 set -eu
 "$PYTHON" "$ROOT/bench/report.py" --quick --fresh --jobs 1 --store "$TMP/kept" --out "$TMP/report"
 [ -s "$TMP/report/index.md" ] && [ -s "$TMP/report/aligned.png" ]
-"$PYTHON" - "$TMP/report/runs.csv" <<'END'
+PYTHONPATH=$ROOT/bench "$PYTHON" - "$TMP/report/runs.csv" <<'END'
 import csv
 import sys
+
+import numpy as np
+from report_figures import front, spread
 
 with open(sys.argv[1]) as file:
     rows = list(csv.DictReader(file))
@@ -16,7 +20,35 @@ exact = [
     for r in theta
     if (r["scene"], r["mass"], r["redist"], r["courant"]) == ("aligned", "DISPERSION", "0", "1")
 ]
+
+
+def is_front(runs):
+    """What front() gives, found by comparing all runs with all."""
+    kept = [
+        a
+        for a in runs
+        if not any(
+            b["cpu"] <= a["cpu"]
+            and b["err"] <= a["err"]
+            and (b["cpu"], b["err"]) != (a["cpu"], a["err"])
+            for b in runs
+        )
+    ]
+    found = [(a["cpu"], a["err"]) for a in front(runs, "err")]
+    return found == sorted({(a["cpu"], a["err"]) for a in kept})
+
+
+bars = [
+    dict(r, cpu=float(r["cpu"]), err=float(r["err"]))
+    for r in rows
+    if r["scene"] == "unaligned" and r["err"]
+]
+crowd = [0.5, 0.5, 0.51, 0.9, 0.1, 0.505]
+apart = spread(crowd, 0.05)
 tests = [
+    ("the front of all runs", len(front(bars, "err")) > 2 and is_front(bars)),
+    ("names apart", np.diff(np.sort(apart)).min() > 0.0499),
+    ("names in order", (np.diff(apart[np.argsort(crowd, kind="stable")]) > 0.0).all()),
     ("THETA runs that failed", not [r for r in theta if r["failed"]]),
     ("THETA runs whose energy grew", not [r for r in theta if r["growth"] == "True"]),
     ("exact runs", len(exact) == 2 and all(float(r["err"]) < 1e-9 for r in exact)),
