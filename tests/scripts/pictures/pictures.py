@@ -64,7 +64,7 @@ def scenes_with_exact_solution():
         ("units", dict(scale_length=8.0, scale_time=2.0, scale_mass=0.5)),
         ("friction", dict(mu=0.3, thickness=2.0)),
     ):
-        folder, meta = run_bars(name, **options)
+        folder, meta = run_bars(name, "*CONTROL_ACCURACY\n         1\n", **options)
         found, why = exact_scene.scene_of(folder)
         check(found is not None, "%s: %s" % (name, why))
         if found:
@@ -95,6 +95,7 @@ def scenes_without():
         ("heavy", {}, load, None, "*LOAD_BODY_X"),
         ("held", {}, held, None, "*BOUNDARY_SPC_SET"),
         ("late", {}, "", late, "not there all the time"),
+        ("tied", {}, "", ("0.0\n*ELEMENT", "0.0       1\n*ELEMENT"), "is held"),
     ):
         path = os.path.join(TMP, name + ".k")
         make_bars.write(path, **dict(dict(nx=20, courant=1.0), **options))
