@@ -95,7 +95,7 @@ contains
     call add_nonlinear(table, 'LSTOL', 'R10 note =0.9 0=d')
     call add_nonlinear(table, 'ABSTOL', 'R10 note =1.0E-10 0=d')
     call add_card(table)
-    call add_nonlinear(table, 'DNORM', 'I10 note =2 0=d')
+    call add_nonlinear(table, 'DNORM', 'I10 note =2 0=d >=0')
     call add_nonlinear(table, 'DIVERG', 'I10 note =1 0=d')
     call add_nonlinear(table, 'ISTIF', 'I10 note =1 0=d')
     call add_nonlinear(table, 'NLPRINT', 'I10 note')

@@ -2,8 +2,8 @@
 !> Keywords of contact and of the tables.
 module deck_keywords_contact
   use base_strings, only: upper
-  use deck_names, only: table_keywords, table_names, table_count, table_timing
-  use deck_table, only: table_t, add_keyword, add_card, add_field
+  use deck_names, only: table_keywords, table_names, table_count, table_timing, table_glstat
+  use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field
   implicit none
   private
   public :: add_contact_keywords, add_output_keywords
@@ -37,7 +37,7 @@ contains
     call add_field(table, 'SFACT', 'R10 note =1.0 0=d', 'of penalty methods')
     call add_field(table, 'FREQ', 'I10 note =50 0=d', 'of penalty methods')
     call add_field(table, 'FS', 'R10 =0.0 >=0', 'coefficient of friction mu')
-    call add_field(table, 'FD', 'R10 =0.0 >=0', 'has no effect while DC = 0')
+    call add_field(table, 'FD', 'R10 =0.0 0=d >=0', 'has no effect while DC = 0')
     call add_field(table, 'DC', 'R10 fixed', 'decay of friction with velocity')
     call add_card(table)
     call add_field(table, 'TBIRTH', 'R10 =0.0 [T]', 'contact is active from this time')
@@ -78,10 +78,10 @@ contains
     call add_card(table)
     call add_field(table, 'XT', 'R10 =0.0 [L]', 'a point T on the wall')
     call add_field(table, 'YT', 'R10 =0.0 [L]', 'the same')
-    call add_field(table, 'ZT', 'R10 ignored [L]')
+    call add_field(table, 'ZT', 'R10 =0.0 [L]', 'the same as ZH')
     call add_field(table, 'XH', 'R10 =0.0 [L]', 'a point H in front of it: the normal is TH')
     call add_field(table, 'YH', 'R10 =0.0 [L]', 'the same')
-    call add_field(table, 'ZH', 'R10 ignored [L]')
+    call add_field(table, 'ZH', 'R10 =0.0 [L]', 'the same as ZT: the model is plane')
     call add_field(table, 'FRIC', 'R10 =0.0 >=0 <=1', &
         'coefficient of friction mu; 1 = no sliding (mu = 1e6)')
     call add_field(table, 'WVEL', 'R10 fixed', 'the wall does not move')
@@ -103,6 +103,7 @@ contains
       do m = 1, 4
         call add_field(table, 'OPTION'//achar(48 + m), 'R10 note', 'columns are fixed')
       end do
+      if (k == table_glstat) call add_alias(table, 'DATABASE_GLSTAT_MASS_PROPERTIES')
     end do
     call add_history(table, 'DATABASE_HISTORY_NODE', 'node', 'NODOUT')
     call add_history(table, 'DATABASE_HISTORY_NODE_SET', 'node set', 'NODOUT')

@@ -141,6 +141,7 @@ contains
     call add_field(table, 'N2', 'I10 req >0', 'its other node; the order does not matter')
     call add_field(table, 'N3', 'I10 =0 >=0', '0 or N2')
     call add_field(table, 'N4', 'I10 =0 >=0', '0 or N2')
+    call add_field(table, 'N5', 'I10 fixed', 'of quadratic edges')
   end subroutine add_segment_loads
 
   subroutine add_pressure(table)

@@ -8,7 +8,7 @@ module deck_table
   implicit none
   private
   integer, parameter, public :: name_length = 10
-  integer, parameter, public :: keyword_length = 48
+  integer, parameter, public :: keyword_length = 56
   integer, parameter, public :: max_fields = 10
 
   !> What the program does with a field.

@@ -4,7 +4,7 @@ module scene_parts
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use deck_problems, only: add_warning
+  use deck_problems, only: add_warning, add_note
   use material_base, only: plane_stress, plane_strain
   use material_registry, only: make_material, material_keywords, max_constants
   use model_data, only: model_t, section_t
@@ -114,8 +114,16 @@ contains
               'other element forms are not available in this version')
           section(k)%plane = plane_strain
         end if
-        if (deck%integer(r, 'NIP') /= 4) call deck%complain(r, 'NIP', &
-            'expected 4 or blank: elements are integrated with 2 x 2 points')
+        select case (deck%integer(r, 'NIP'))
+        case (4)
+        case (2)
+          call add_note(deck%problems, '*SECTION_SHELL NIP 2, the default of shells, is '// &
+              'read as 4: plane elements have 2 x 2 points')
+        case default
+          call deck%complain(r, 'NIP', &
+              'expected 4 or blank: elements are integrated with 2 x 2 points', &
+              'other rules are not available in this version')
+        end select
         call read_thickness(deck, deck%follow(r, 2), section(k))
       end associate
     end do
@@ -133,7 +141,8 @@ contains
     do k = 1, 3
       if (.not. deck%is_given(record, other(k))) cycle
       if (abs(deck%real(record, other(k)) - section%thickness) > zero) &
-          call deck%complain(record, other(k), 'expected the same thickness as T1, or blank')
+          call deck%complain(record, other(k), 'expected the same thickness as T1, or blank', &
+          'other thicknesses are not available in this version')
     end do
   end subroutine read_thickness
 
