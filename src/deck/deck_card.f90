@@ -1,15 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The cards under one keyword: which card each line is, and how many there must be.
 module deck_card
-  use base_strings, only: to_text, position_of
+  use base_strings, only: to_text
   use deck_check, only: check_card, check_head
   use deck_data, only: deck_t, block_t, record_t
+  use deck_form, only: has_commas
   use deck_problems, only: add_note
   use deck_source, only: cursor_t, next_line
   use deck_table, only: keyword_t
   implicit none
   private
-  public :: start_block, read_cards
+  public :: start_block, read_cards, note_blank_line
 
 contains
 
@@ -55,7 +56,7 @@ contains
     integer, intent(in) :: head
     logical, intent(inout) :: more
     integer :: card, row, count, solid_line
-    logical :: head_is_next, at_end
+    logical :: head_is_next, at_end, set_is_whole
     row = deck%block(deck%blocks)%keyword
     head_is_next = head > 0
     at_end = .false.
@@ -68,17 +69,19 @@ contains
         if (len(line) > 0) then
           if (line(1:1) == '*') exit
         end if
-        if (card == k%cards .and. k%repeat_from == 1) then
-          head_is_next = head > 0
-          card = 0
-        end if
+        set_is_whole = card == k%cards .and. k%repeat_from == 1
         if (len_trim(line) == 0) then
           call look_ahead(deck, cursor, solid_line, at_end)
-          if (is_between_cards(k, card, count, head_is_next, at_end)) then
-            call note_blank_line(deck, cursor)
+          if (is_between_cards(k, card, count, &
+              head_is_next .or. (set_is_whole .and. head > 0), at_end)) then
+            call note_blank_line(deck, cursor%file)
             more = next_line(deck%file(cursor%file), cursor)
             cycle
           end if
+        end if
+        if (set_is_whole) then
+          head_is_next = head > 0
+          card = 0
         end if
         if (head_is_next) then
           head_is_next = .false.
@@ -97,7 +100,7 @@ contains
       more = next_line(deck%file(cursor%file), cursor)
     end do
     deck%block(deck%blocks)%last = deck%records
-    call check_count(deck, row, count, card, head_is_next .and. count > 0)
+    call check_count(deck, row, count, card)
   end subroutine read_cards
 
   !> A blank line is no card where a card with fields that must be given comes next, or where
@@ -109,7 +112,7 @@ contains
     integer :: next
     next = card + 1
     if (card == k%cards) next = max(k%repeat_from, 1)
-    between = at_end .and. count >= k%required .and. (k%repeat_from /= 1 .or. card == 0)
+    between = at_end .and. count >= k%required .and. (k%repeat_from /= 1 .or. next == 1)
     if (head_is_next .or. between) return
     between = any(k%card(next)%field(1:k%card(next)%fields)%required) &
         .or. (count >= k%required .and. k%repeat_from > 1)
@@ -136,10 +139,11 @@ contains
     end do
   end subroutine look_ahead
 
-  subroutine note_blank_line(deck, cursor)
+  !> One note for a file with blank lines that are no cards.
+  subroutine note_blank_line(deck, file)
     type(deck_t), intent(inout) :: deck
-    type(cursor_t), intent(in) :: cursor
-    call add_note(deck%problems, deck%file(cursor%file)%path// &
+    integer, intent(in) :: file
+    call add_note(deck%problems, deck%file(file)%path// &
         ': blank lines between cards are passed over')
   end subroutine note_blank_line
 
@@ -155,20 +159,24 @@ contains
     end if
     deck%records = deck%records + 1
     deck%record(deck%records) = record_t(block=deck%blocks, card=card, line=cursor%line, &
-        first=cursor%first, last=cursor%last, comma=position_of( &
-        deck%file(cursor%file)%text(cursor%first:cursor%last), ',') > 0)
+        first=cursor%first, last=cursor%last)
+    if (card == 0) return
+    associate (block => deck%block(deck%blocks))
+      deck%record(deck%records)%comma = has_commas( &
+          deck%file(cursor%file)%text(cursor%first:cursor%last), &
+          deck%table%keyword(block%keyword)%card(card), block%long)
+    end associate
   end subroutine add_record
 
   !> Mandatory cards of the last set must all be there.
-  subroutine check_count(deck, row, count, card, head_alone)
+  subroutine check_count(deck, row, count, card)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: row, count, card
-    logical, intent(in) :: head_alone
     integer :: line, wanted
     associate (k => deck%table%keyword(row), block => deck%block(deck%blocks))
       wanted = k%required
       if (k%repeat_from == 1 .and. count > 0) wanted = k%cards
-      if (.not. head_alone .and. count >= k%required &
+      if (count >= k%required &
           .and. (k%repeat_from /= 1 .or. count == 0 .or. card >= wanted)) return
       line = block%line
       if (block%last >= block%first) line = deck%record(block%last)%line

@@ -3,9 +3,9 @@
 !> Nothing is kept; values are converted again when they are asked for.
 module deck_check
   use base_kinds, only: wp
-  use base_strings, only: to_text, upper, position_of
+  use base_strings, only: to_text, upper
   use deck_data, only: deck_t, field_span, slice_field, parameter_of, convert
-  use deck_number, only: scan_integer
+  use deck_form, only: read_head
   use deck_problems, only: add_note, full
   use deck_table, only: field_t, card_t, field_tuning, field_fixed
   implicit none
@@ -25,16 +25,16 @@ contains
     integer :: id
     logical :: ok
     associate (r => deck%record(record))
-      associate (file => deck%block(r%block)%file)
+      associate (file => deck%block(r%block)%file, long => deck%block(r%block)%long)
         associate (line => deck%file(file)%text(r%first:r%last))
           if (len_trim(line) > 80) call deck%complain_at(file, r%line, 81, len_trim(line), &
               'the card of _TITLE or _ID ends at column 80', line, '')
           if (head /= head_id) return
-          ok = len_trim(line(1:min(10, len(line)))) == 0
-          if (.not. ok) call scan_integer(trim(adjustl(line(1:min(10, len(line))))), id, ok)
-          if (.not. ok) call deck%complain_at(file, r%line, 1, 10, 'the card of _ID begins '// &
-              'with an integer in ten columns, found "'//line(1:min(10, len(line)))// &
-              '"', line, '')
+          call read_head(line, long, id, ok)
+          if (.not. ok) call deck%complain_at(file, r%line, 1, merge(20, 10, long), &
+              'the card of _ID begins with an integer in '//trim(merge('twenty', 'ten   ', &
+              long))//' columns, found "'//line(1:min(merge(20, 10, long), len(line)))//'"', &
+              line, '')
         end associate
       end associate
     end associate
@@ -133,6 +133,8 @@ contains
     integer :: f, last
     last = card%field(card%fields)%first + card%field(card%fields)%width - 1
     if (long) last = 20*card%fields
+    if (long .and. card%field(card%fields)%kind == 'T') &
+        last = last - 20 + card%field(card%fields)%width
     if (len(line) > last) then
       if (len_trim(line(last + 1:)) > 0) &
           call deck%complain(record, '', 'text beyond column '//to_text(last)// &

@@ -55,6 +55,7 @@ module deck_data
     type(parameter_t), allocatable :: parameter(:)
     type(line_t), allocatable :: folder(:)   !< where else included files are looked for
     type(problems_t) :: problems
+    character(:), allocatable :: chosen      !< cards for the echo: what the deck left open
   contains
     procedure :: real => deck_real
     procedure :: integer => deck_integer
@@ -75,26 +76,34 @@ module deck_data
 contains
 
   !> Row of the parameter that a name means at a line of a file, 0 if it is not defined (yet).
-  !> One of *PARAMETER_LOCAL comes before one of all files.
+  !> One of *PARAMETER_LOCAL comes before one of all files, the inner before the outer.
   pure integer function find_parameter(deck, name, file, line) result(row)
     type(deck_t), intent(in) :: deck
     character(*), intent(in) :: name
     integer, intent(in) :: file, line
     character(len(name)) :: wanted
+    integer :: k
     wanted = upper(name)
-    do row = deck%parameters, 1, -1
-      if (deck%parameter(row)%name /= wanted) cycle
-      if (is_visible(deck, deck%parameter(row), file, line)) return
-    end do
     row = 0
+    do k = deck%parameters, 1, -1
+      associate (p => deck%parameter(k))
+        if (p%name /= wanted) cycle
+        if (p%file == 0) row = k
+        if (p%file == 0 .or. .not. is_visible(deck, p, file, line)) cycle
+      end associate
+      row = k
+      return
+    end do
   end function find_parameter
 
+  !> Is a parameter of *PARAMETER_LOCAL seen at a line of a file: below its own line, or in what
+  !> its file includes there?
   pure logical function is_visible(deck, parameter, file, line)
     type(deck_t), intent(in) :: deck
     type(parameter_t), intent(in) :: parameter
     integer, intent(in) :: file, line
     integer :: f, at
-    is_visible = parameter%file == 0
+    is_visible = .false.
     f = file
     at = line
     do while (f > 0 .and. .not. is_visible)
@@ -345,10 +354,9 @@ contains
     f = locate(this, record, name)
     call find_field(this, record, f, row, card, first, last)
     deck_given = last >= first
-    associate (field => this%table%keyword(row)%card(card)%field(f), &
-        text => this%file(this%block(this%record(record)%block)%file)%text)
+    associate (field => this%table%keyword(row)%card(card)%field(f))
       if (.not. deck_given .or. .not. field%zero_is_default) return
-      call convert(text(first:last), field%kind, value, ok)
+      call convert(this%text_at(record, f), field%kind, value, ok)
       deck_given = .not. ok .or. abs(value) > 0.0_wp
     end associate
   end function deck_given

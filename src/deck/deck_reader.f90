@@ -4,7 +4,7 @@
 module deck_reader
   use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: upper, to_text
-  use deck_card, only: start_block, read_cards
+  use deck_card, only: start_block, read_cards, note_blank_line
   use deck_data, only: deck_t
   use deck_folders, only: read_folders, read_file_name, find_include
   use deck_keywords, only: complete_table
@@ -80,7 +80,11 @@ contains
     more = next_line(deck%file(file), cursor)
     do while (more)
       if (.not. is_keyword(deck, cursor)) then
-        if (cursor%last >= cursor%first) call stray_card(deck, cursor)
+        if (is_blank(deck, cursor)) then
+          call note_blank_line(deck, file)
+        else
+          call stray_card(deck, cursor)
+        end if
         more = next_line(deck%file(file), cursor)
         cycle
       end if
@@ -92,8 +96,8 @@ contains
       case ('KEYWORD')
         call read_options(deck, cursor, long)
         more = next_line(deck%file(file), cursor)
-      case ('KEYWORD_ID')
-        call add_note(deck%problems, '*KEYWORD_ID is skipped: it names the run, no more')
+      case ('KEYWORD_ID', 'KEYWORD_JOBID')
+        call add_note(deck%problems, '*'//name//' is skipped: it names the run, no more')
         call skip_cards(deck, cursor, more)
       case ('INCLUDE')
         call read_include(deck, cursor, depth, overrides, long, more)
@@ -109,6 +113,12 @@ contains
       end select
     end do
   end subroutine read_file
+
+  pure logical function is_blank(deck, cursor)
+    type(deck_t), intent(in) :: deck
+    type(cursor_t), intent(in) :: cursor
+    is_blank = len_trim(deck%file(cursor%file)%text(cursor%first:cursor%last)) == 0
+  end function is_blank
 
   pure logical function is_keyword(deck, cursor)
     type(deck_t), intent(in) :: deck
@@ -322,9 +332,13 @@ contains
     more = next_line(deck%file(cursor%file), cursor)
     do while (more)
       if (is_keyword(deck, cursor)) exit
-      any_name = .true.
-      call read_file_name(deck, cursor, name, more)
-      call include_file(deck, cursor, name, depth, overrides, long, ended)
+      if (is_blank(deck, cursor)) then
+        call note_blank_line(deck, cursor%file)
+      else
+        any_name = .true.
+        call read_file_name(deck, cursor, name, more)
+        call include_file(deck, cursor, name, depth, overrides, long, ended)
+      end if
       if (more) more = next_line(deck%file(cursor%file), cursor)
     end do
     if (.not. any_name) call deck%complain_at(start%file, start%line, 0, 0, &

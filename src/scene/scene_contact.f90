@@ -4,6 +4,7 @@ module scene_contact
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_data, only: deck_t
+  use deck_form, only: read_head
   use deck_problems, only: add_note, add_warning
   use model_data, only: model_t, contact_card_t, wall_t, side_part_set, side_node_set, &
       side_part, side_segment_set, side_all_parts
@@ -95,15 +96,15 @@ contains
   integer function head_number(deck, record, number)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: record, number
-    integer :: ios, id
+    integer :: id
+    logical :: ok
     head_number = number
     if (record == deck%block(deck%record(record)%block)%first) return
     associate (r => deck%record(record - 1))
       if (r%card /= 0) return
       associate (line => deck%file(deck%block(r%block)%file)%text(r%first:r%last))
-        if (len_trim(line(1:min(10, len(line)))) == 0) return
-        read (line(1:min(10, len(line))), *, iostat=ios) id
-        if (ios == 0) head_number = id
+        call read_head(line, deck%block(r%block)%long, id, ok)
+        if (ok .and. id > 0) head_number = id
       end associate
     end associate
   end function head_number
@@ -231,6 +232,8 @@ contains
     type(wall_t), intent(inout) :: wall
     real(wp), parameter :: no_sliding = 1.0e6_wp
     real(wp) :: length
+    if (abs(deck%real(record, 'ZH') - deck%real(record, 'ZT')) > zero) call deck%complain( &
+        record, 'ZH', 'expected the value of ZT: the model is plane')
     wall%point = [deck%real(record, 'XT'), deck%real(record, 'YT')]
     wall%normal = [deck%real(record, 'XH'), deck%real(record, 'YH')] - wall%point
     length = norm2(wall%normal)

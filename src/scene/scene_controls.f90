@@ -125,16 +125,16 @@ contains
     type(controls_t), intent(inout) :: controls
     logical :: newmark
     integer :: r
-    controls%scheme = 'NEWMARK'
-    if (.not. has_contact(deck)) return
     r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
-    newmark = .false.
-    if (r > 0) newmark = deck%is_given(r, 'GAMMA') .or. deck%is_given(r, 'BETA')
+    newmark = .not. has_contact(deck)
+    if (r > 0) newmark = newmark .or. deck%is_given(r, 'GAMMA') .or. deck%is_given(r, 'BETA')
+    controls%scheme = trim(merge('NEWMARK', 'THETA  ', newmark))
+    deck%chosen = '*BIPACT_TIME'//new_line('a')//'   '//controls%scheme
+    if (.not. has_contact(deck)) return
     if (newmark) then
       call add_warning(deck%problems, 'no *BIPACT_TIME, but GAMMA or BETA: the scheme is '// &
           'NEWMARK, which gains energy without bound on impact; choose SCHEME THETA')
     else
-      controls%scheme = 'THETA'
       call add_note(deck%problems, 'no *BIPACT_TIME: the scheme is THETA with theta = xi = 1/2')
     end if
   end subroutine choose_scheme

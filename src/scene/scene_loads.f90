@@ -45,6 +45,8 @@ contains
         'expected 0 or 2: dynamic relaxation is not available in this version')
     allocate (curve%a(n), curve%o(n))
     do k = 1, n
+      if (.not. (deck%is_given(head + k, 'A') .or. deck%is_given(head + k, 'O'))) &
+          call deck%complain(head + k, 'A', 'expected a point, found a blank card')
       curve%a(k) = deck%real(head, 'SFA')*(deck%real(head + k, 'A') + deck%real(head, 'OFFA'))
       curve%o(k) = deck%real(head, 'SFO')*(deck%real(head + k, 'O') + deck%real(head, 'OFFO'))
       if (.not. max(abs(curve%a(k)), abs(curve%o(k))) <= huge(zero)) &
