@@ -168,8 +168,7 @@ contains
     if (next == '(') then
       parser%at = at + 1
       call read_sum(deck, parser, value)
-      if (peek(parser) /= ')') call reject(parser, at, 'the parenthesis is not closed')
-      parser%at = parser%at + 1
+      call close_parenthesis(parser, at)
     else if (scan(next, digits//'.') > 0) then
       call read_number(parser, value)
     else if (scan(next, letters//'&') > 0) then
@@ -187,6 +186,20 @@ contains
       call reject(parser, at, 'expected a number, a name or a parenthesis')
     end if
   end subroutine read_primary
+
+  !> Moves over the parenthesis that closes the one at `opened`.
+  subroutine close_parenthesis(parser, opened)
+    type(parser_t), intent(inout) :: parser
+    integer, intent(in) :: opened
+    select case (peek(parser))
+    case (')')
+      parser%at = parser%at + 1
+    case (' ')
+      call reject(parser, opened, 'the parenthesis is not closed')
+    case default
+      call reject(parser, (parser%at), 'expected an operator or ")"')
+    end select
+  end subroutine close_parenthesis
 
   !> Digits with at most one point and an exponent; an integer if it has neither.
   subroutine read_number(parser, value)
@@ -278,8 +291,7 @@ contains
       next = peek(parser)
       if (next /= ',') exit
     end do
-    if (next /= ')') call reject(parser, opened, 'the parenthesis is not closed')
-    parser%at = parser%at + 1
+    call close_parenthesis(parser, opened)
     if (parser%outcome%wrong_at == 0) call apply(parser, at, name, a(1:n), value)
   end subroutine read_call
 
@@ -430,6 +442,15 @@ contains
     end if
   end subroutine divide
 
+  !> x ** power by the library alone: a product of many factors would collect round-off. A
+  !> negative x needs a whole power.
+  pure function real_power(x, power) result(value)
+    real(wp), intent(in) :: x, power
+    type(value_t) :: value
+    value = real_value(abs(x)**power)
+    if (x < 0.0_wp .and. abs(mod(power, 2.0_wp)) > 0.0_wp) value = negative(value)
+  end function real_power
+
   !> value ** power.
   subroutine raise(parser, at, value, power)
     type(parser_t), intent(inout) :: parser
@@ -450,10 +471,8 @@ contains
       call reject(parser, at, 'the result is too large')
     else if (value%is_integer .and. power%is_integer) then
       call keep(parser, at, whole_power(value, power), value)
-    else if (whole) then
-      value = real_value(value%x**nint(power%x))
     else
-      value = real_value(value%x**power%x)
+      value = real_power(value%x, power%x)
     end if
   end subroutine raise
 

@@ -206,7 +206,7 @@ contains
     logical, intent(out) :: more
     type(expression_t) :: expression
     type(pair_t) :: pair
-    integer :: width, first
+    integer :: width, last, first
     logical :: pending
     width = merge(20, 10, long)
     pending = .false.
@@ -218,22 +218,25 @@ contains
           if (line(1:1) == '*') exit
         end if
         if (len_trim(line) > 0) then
-          first = index(line(1:min(width + 1, len(line))), ',')
-          if (first == 0) first = width
-          if (len_trim(line(1:min(first, len(line)))) > 0) then
+          call find_name(line, width, last, first)
+          if (last > 0) then
             if (pending) call define_by(deck, expression, pair, overrides)
             pair%card = pair%card + 1
-            pair%first = [1, first + 1]
-            pair%last = [first, len(line)]
+            pair%first = [1, first]
+            pair%last = [last, len(line)]
             expression%text = ''
             expression%lines = 0
             pending = .true.
           end if
-          if (pending) then
-            call add_line(expression, cursor, line, first + 1)
-          else
-            call deck%complain_at(cursor%file, cursor%line, 1, first, &
+          if (.not. pending) then
+            call deck%complain_at(cursor%file, cursor%line, 1, width, &
                 '*PARAMETER_EXPRESSION: the first line needs a name', line, '')
+          else if (expression%lines == size(expression%start)) then
+            call deck%complain_at(cursor%file, cursor%line, 0, 0, '*PARAMETER_EXPRESSION '// &
+                'card '//to_text(pair%card)//': an expression has at most '// &
+                to_text(expression%lines)//' lines', line, '')
+          else
+            call add_line(expression, cursor, line, first)
           end if
         end if
       end associate
@@ -242,13 +245,28 @@ contains
     if (pending) call define_by(deck, expression, pair, overrides)
   end subroutine read_expressions
 
+  !> The last column of the name on a line, 0 where it has none, and the first column of the
+  !> expression: after the columns of the name, or after a comma that follows a name there.
+  pure subroutine find_name(line, width, last, first)
+    character(*), intent(in) :: line
+    integer, intent(in) :: width
+    integer, intent(out) :: last, first
+    last = index(line(1:min(width + 1, len(line))), ',') - 1
+    first = last + 2
+    if (last > 0) then
+      if (len_trim(line(1:last)) > 0) return
+    end if
+    last = min(width, len(line))
+    first = width + 1
+    if (len_trim(line(1:last)) == 0) last = 0
+  end subroutine find_name
+
   !> Appends the part of a line from a column on.
   pure subroutine add_line(expression, cursor, line, column)
     type(expression_t), intent(inout) :: expression
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: line
     integer, intent(in) :: column
-    if (expression%lines == size(expression%start)) return
     expression%lines = expression%lines + 1
     expression%start(expression%lines) = len(expression%text) + 1
     expression%column(expression%lines) = column
