@@ -129,7 +129,7 @@ contains
     if (.not. ok) return
     value = trim(adjustl(pair_value))
     found = 'found "'//pair_value//'"'
-    if (is_overridden(overrides, name, value)) found = '-D gives "'//value//'"'
+    if (is_overridden(overrides, name, pair%scope, value)) found = '-D gives "'//value//'"'
     if (converts(kind, value)) then
       call keep(deck, cursor, name, value, kind, pair%scope)
     else
@@ -180,13 +180,16 @@ contains
     in_scope = 0
   end function in_scope
 
-  !> Does the command line give a parameter? Then its value is replaced.
-  logical function is_overridden(overrides, name, value)
+  !> Does the command line give a parameter? Then its value is replaced. It gives those of all
+  !> files and of the main file (1), not those that an included file keeps to itself.
+  logical function is_overridden(overrides, name, scope, value)
     type(override_t), intent(inout) :: overrides(:)
     character(*), intent(in) :: name
+    integer, intent(in) :: scope
     character(:), allocatable, intent(inout) :: value
     integer :: k
     is_overridden = .false.
+    if (scope > 1) return
     do k = 1, size(overrides)
       if (upper(overrides(k)%name) /= name) cycle
       value = trim(overrides(k)%value)
@@ -291,7 +294,7 @@ contains
           name, ok)
     end associate
     if (.not. ok) return
-    if (is_overridden(overrides, name, value)) then
+    if (is_overridden(overrides, name, pair%scope, value)) then
       outcome%wrong = '-D gives "'//value//'", expected '//trim(kind_name(kind))
       if (.not. converts(kind, value)) outcome%wrong_at = 1
     else if (kind == 'C') then

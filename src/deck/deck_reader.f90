@@ -74,6 +74,7 @@ contains
     logical, intent(out) :: ended
     type(cursor_t) :: cursor
     character(:), allocatable :: name
+    character :: mark
     logical :: more, long_here
     ended = .false.
     cursor%file = file
@@ -88,7 +89,13 @@ contains
         more = next_line(deck%file(file), cursor)
         cycle
       end if
-      call keyword_name(deck, cursor, long, name, long_here)
+      call keyword_name(deck, cursor, name, mark)
+      long_here = mark == '+' .or. (long .and. mark /= '-')
+      if (mark == '%') then
+        call refuse_ids(deck, cursor, '*'//name//' %')
+        call skip_cards(deck, cursor, more, is_text=.true.)
+        cycle
+      end if
       select case (name)
       case ('END')
         ended = .true.
@@ -98,7 +105,7 @@ contains
         more = next_line(deck%file(file), cursor)
       case ('KEYWORD_ID', 'KEYWORD_JOBID')
         call add_note(deck%problems, '*'//name//' is skipped: it names the run, no more')
-        call skip_cards(deck, cursor, more)
+        call skip_cards(deck, cursor, more, is_text=.true.)
       case ('INCLUDE')
         call read_include(deck, cursor, depth, overrides, long, more)
       case ('INCLUDE_PATH', 'INCLUDE_PATH_RELATIVE')
@@ -127,25 +134,26 @@ contains
     if (is_keyword) is_keyword = deck%file(cursor%file)%text(cursor%first:cursor%first) == '*'
   end function is_keyword
 
-  !> The name after '*' in upper case, to the first blank, without the sign for long (+) or
-  !> standard (-) fields.
-  pure subroutine keyword_name(deck, cursor, long, name, long_here)
+  !> The name after '*' in upper case, to the first blank, and the mark at its end or alone
+  !> after it: + long fields, - standard fields, % ids of ten columns.
+  pure subroutine keyword_name(deck, cursor, name, mark)
     type(deck_t), intent(in) :: deck
     type(cursor_t), intent(in) :: cursor
-    logical, intent(in) :: long
     character(:), allocatable, intent(out) :: name
-    logical, intent(out) :: long_here
+    character, intent(out) :: mark
     integer :: blank, n
+    mark = ' '
     associate (line => deck%file(cursor%file)%text(cursor%first + 1:cursor%last))
       blank = scan(line//' ', ' '//achar(9))
       name = upper(line(1:blank - 1))
+      n = len(name)
+      if (len_trim(adjustl(line(blank:))) == 1) mark = adjustl(line(blank:))
     end associate
-    long_here = long
-    n = len(name)
     if (n < 2) return
-    if (scan(name(n:n), '+-') == 0) return
-    long_here = name(n:n) == '+'
-    name = name(1:n - 1)
+    if (scan(name(n:n), '+-%') > 0) then
+      mark = name(n:n)
+      name = name(1:n - 1)
+    end if
   end subroutine keyword_name
 
   !> The options of *KEYWORD: LONG=Y makes every field 20 columns wide; LONG=S and LONG=K read
@@ -171,14 +179,22 @@ contains
         case ('LONG=S', 'LONG=K', 'I10=N')
           long = .false.
         case ('I10=Y')
-          call deck%complain_at(cursor%file, cursor%line, 0, 0, &
-              '*KEYWORD I10=Y (ids of ten columns) is not available in this version', line, '')
+          call refuse_ids(deck, cursor, '*KEYWORD I10=Y')
         case default
           call add_note(deck%problems, '*KEYWORD '//word//' has no effect')
         end select
       end do
     end associate
   end subroutine read_options
+
+  subroutine refuse_ids(deck, cursor, what)
+    type(deck_t), intent(inout) :: deck
+    type(cursor_t), intent(in) :: cursor
+    character(*), intent(in) :: what
+    call deck%complain_at(cursor%file, cursor%line, 0, 0, what// &
+        ' (ids of ten columns) is not available in this version', &
+        deck%file(cursor%file)%text(cursor%first:cursor%last), '')
+  end subroutine refuse_ids
 
   subroutine stray_card(deck, cursor)
     type(deck_t), intent(inout) :: deck
@@ -220,19 +236,27 @@ contains
       more = next_line(deck%file(cursor%file), cursor)
       call read_cards(deck, cursor, head, more)
     else
-      call skip_cards(deck, cursor, more)
+      call skip_cards(deck, cursor, more, is_text=name == 'COMMENT')
     end if
   end subroutine read_block
 
-  !> Moves the cursor to the next keyword.
-  subroutine skip_cards(deck, cursor, more)
-    type(deck_t), intent(in) :: deck
+  !> Moves the cursor to the next keyword. A keyword with blanks before it must not be skipped
+  !> with the cards of the last one, unless these are a text.
+  subroutine skip_cards(deck, cursor, more, is_text)
+    type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(inout) :: cursor
     logical, intent(out) :: more
+    logical, intent(in) :: is_text
     do
       more = next_line(deck%file(cursor%file), cursor)
       if (.not. more) return
       if (is_keyword(deck, cursor)) return
+      associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last))
+        if (is_text .or. verify(line, ' ') == 0) cycle
+        if (line(verify(line, ' '):verify(line, ' ')) == '*') call deck%complain_at( &
+            cursor%file, cursor%line, 1, verify(line, ' '), &
+            'a keyword starts with * in column 1', line, '')
+      end associate
     end do
   end subroutine skip_cards
 
@@ -322,11 +346,11 @@ contains
     type(cursor_t), intent(inout) :: cursor
     integer, intent(in) :: depth
     type(override_t), intent(inout) :: overrides(:)
-    logical, intent(inout) :: long
+    logical, intent(in) :: long
     logical, intent(out) :: more
     type(cursor_t) :: start
     character(:), allocatable :: name
-    logical :: ended, any_name
+    logical :: any_name
     any_name = .false.
     start = cursor
     more = next_line(deck%file(cursor%file), cursor)
@@ -337,7 +361,7 @@ contains
       else
         any_name = .true.
         call read_file_name(deck, cursor, name, more)
-        call include_file(deck, cursor, name, depth, overrides, long, ended)
+        call include_file(deck, cursor, name, depth, overrides, long)
       end if
       if (more) more = next_line(deck%file(cursor%file), cursor)
     end do
@@ -345,17 +369,18 @@ contains
         '*INCLUDE: the name of a file is missing', '', '')
   end subroutine read_include
 
-  recursive subroutine include_file(deck, cursor, name, depth, overrides, long, ended)
+  !> long: as the file has it that includes; what the included one says of itself stays there.
+  recursive subroutine include_file(deck, cursor, name, depth, overrides, long)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: name
     integer, intent(in) :: depth
     type(override_t), intent(inout) :: overrides(:)
-    logical, intent(inout) :: long
-    logical, intent(out) :: ended
+    logical, intent(in) :: long
     type(status_t) :: status
     character(:), allocatable :: path
     integer :: k
+    logical :: ended, long_there
     path = find_include(deck, cursor%file, name)
     k = cursor%file
     do while (k > 0)
@@ -379,7 +404,8 @@ contains
           deck%file(cursor%file)%text(cursor%first:cursor%last), &
           'a name is relative to the file that includes it, or to a folder of *INCLUDE_PATH')
     else
-      call read_file(deck, deck%files, depth + 1, overrides, long, ended)
+      long_there = long
+      call read_file(deck, deck%files, depth + 1, overrides, long_there, ended)
     end if
   end subroutine include_file
 

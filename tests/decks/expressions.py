@@ -271,6 +271,34 @@ def refusals(name, wrong):
         check("%d problem" % len(part) in errors, "%s: %s" % (name, errors))
 
 
+def number(rng):
+    """(text, value) of a number as programs write them: digits on one or both sides of a point,
+    exponents by E, e, D, d or a bare sign."""
+    digits = "".join(rng.choice("0123456789") for _ in range(rng.choice((1, 2, 3, 6, 15, 16, 17, 18))))
+    point = rng.randrange(len(digits) + 1)
+    mantissa = rng.choice(("", "", "-", "+")) + digits[:point] + "." + digits[point:]
+    power = rng.randrange(-30, 31)
+    exponent = rng.choice(("", "E%d", "e%+d", "D%+03d", "d%d", "%+d"))
+    return mantissa + (exponent and exponent % power), float(mantissa + (exponent and "e%d" % power))
+
+
+def random_numbers():
+    """600 numbers in all the forms that the format knows: each is the double that is nearest to
+    it, as Python's is."""
+    rng = random.Random(20260107)
+    drawn = [(t, v) for t, v in (number(rng) for _ in range(900)) if len(t) <= 24 and (v == 0.0 or 1.0e-60 < abs(v) < 1.0e60)][:600]
+    early = ["*PARAMETER"] + ["Rp%d,%s" % (k, t) for k, (t, _) in enumerate(drawn)]
+    early += ["*PARAMETER_EXPRESSION"] + ["Rq%d,p%d*1.0" % (k, k) for k in range(len(drawn))]
+    points = ["*DEFINE_CURVE", plain.fixed(99)] + ["%d.0,&q%d" % (k, k) for k in range(len(drawn))]
+    folder, code, errors = run_text("numbers", plain.deck(early="\n".join(early), more="\n".join(points)), "--quiet")
+    check(code == 0, errors)
+    with open(os.path.join(folder, "deck.echo.k")) as echo:
+        found = re.findall(r"(?m)^\d+\.0,([^,]*),$", echo.read())
+    check(len(found) == len(drawn) > 500, "%d values came back" % len(found))
+    for back, (text, value) in zip(found, drawn):
+        check(float(back) == value, "%s is %r, found %s" % (text, value, back))
+
+
 def random_faults():
     """150 random expressions that divide by zero, leave the domain of a function or the
     integers, or name an unknown: refused at the operator, the function or the name. 150 more

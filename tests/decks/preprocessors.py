@@ -229,6 +229,13 @@ def names():
     same("twice, one note", deck(more=2 * (cards("DATABASE_ABSTAT", fixed(1)) + "\n")), notes=["*DATABASE_ABSTAT"])
     same("in lower case, with a remark", deck(more="*database_abstat $ of airbags\n" + fixed(1)), notes=["*DATABASE_ABSTAT"])
     same("mass properties", deck(tables=SECTIONS["tables"].replace("GLSTAT", "GLSTAT_MASS_PROPERTIES")), notes=[])
+    same("text of a comment", deck(more=cards("COMMENT", " * first", "   *NODE", "*".rjust(9))), notes=["*COMMENT"])
+    for name, text in (
+        ("in a skipped keyword", cards("DATABASE_ABSTAT", fixed(0.1), " *BOUNDARY_SPC_SET", fixed(1, None, 1))),
+        ("in one that is not available", cards("DAMPING_GLOBAL", fixed(0.1), "   *NODE")),
+        ("after a title in an include", "*INCLUDE\nt.k"),
+    ):
+        refused("a keyword with blanks before it " + name, deck(more=text), "a keyword starts with * in column 1", files={"t.k": "*TITLE\nmesh\n *NODE\n"})
     for name, nearest in (
         ("DATABASE_ABSTATS", "DATABASE_ABSTAT"),
         ("DATABASE_RBDOT", "DATABASE_RBDOUT"),
@@ -543,6 +550,42 @@ def sets():
         refused("sets: " + name, deck(more=text), words)
 
 
+def forms():
+    """Long form, comma form and the marks + - % of keywords."""
+    wide = long_nodes({}) + "\n" + "\n".join(["*ELEMENT_SHELL+"] + [long(*x.split()) for x in SECTIONS["elements"].split("\n")[1:]])
+    bare = wide.replace("+", "")
+    here = dict(nodes="*INCLUDE\nmesh.k", elements="")
+    for name, mesh in (
+        ("*NODE+", wide),
+        ("*NODE +", wide.replace("+", " +")),
+        ("LONG=Y of the include", "*KEYWORD LONG=Y\n" + bare),
+        ("LONG=Y and memory", "*KEYWORD memory=20m LONG=Y ncpu=2\n" + bare),
+        ("long=y, in lower case", "*keyword long=y\n" + bare),
+        ("*NODE- in a long include", "*KEYWORD LONG=Y\n" + SECTIONS["nodes"].replace("*NODE", "*NODE-") + "\n" + bare[bare.index("*ELEM"):]),
+        ("*NODE - in a long include", "*KEYWORD LONG=Y\n" + SECTIONS["nodes"].replace("*NODE", "*NODE -") + "\n" + bare[bare.index("*ELEM"):]),
+    ):
+        same(name + ": the file above stays as it is", deck(**here), files={"mesh.k": mesh + "\n*END\n"}, notes=None)
+    same("an include of a long include", deck(**here), files={"mesh.k": "*KEYWORD LONG=Y\n*INCLUDE\nmesh2.k\n*END\n", "mesh2.k": bare}, notes=[])
+    same("LONG=S of an include of a long include", deck(**here), files={"mesh.k": "*KEYWORD LONG=Y\n*INCLUDE\nmesh2.k\nmesh3.k\n*END\n", "mesh2.k": "*KEYWORD LONG=S\n" + SECTIONS["nodes"], "mesh3.k": bare[bare.index("*ELEM"):]}, notes=[])
+    clean({"mesh.k": "", "mesh2.k": "", "mesh3.k": ""})
+    commas = re.sub(r"(?m)^( +[-0-9.]+)+$", lambda m: ",".join(m.group().split()) + ",", MESH)
+    same("a mesh in comma form", deck(nodes=commas, elements=""), notes=[])
+    same("comma form with many blanks", deck(nodes=commas.replace(",", "  ,   "), elements=""), notes=[])
+    same("comma form beyond column 80", deck(nodes=commas.replace(",", " " * 40 + ","), elements=""), notes=[])
+    same("comma form in long form", deck(nodes=commas.replace("*NODE", "*NODE+"), elements=""), notes=[])
+    same("a remark after a keyword", deck(nodes=SECTIONS["nodes"].replace("*NODE", "*NODE  + four more"), elements=SECTIONS["elements"].replace("SHELL", "SHELL\tplane")), notes=[])
+    for name, text in (
+        ("*NODE %", deck(nodes=SECTIONS["nodes"].replace("*NODE", "*NODE %"))),
+        ("*NODE%", deck(nodes=SECTIONS["nodes"].replace("*NODE", "*NODE%"))),
+        ("*ELEMENT_SHELL %", deck(elements=SECTIONS["elements"].replace("SHELL", "SHELL   %  "))),
+        ("*KEYWORD I10=Y", deck().replace("*KEYWORD", "*KEYWORD I10=Y")),
+    ):
+        refused(name, text, re.sub(" *%", " %", name) + " (ids of ten columns) is not available in this version")
+    refused("long cards of a standard keyword", deck(nodes=wide.replace("*NODE+", "*NODE"), elements=""), "*NODE card 1")
+    refused("standard cards of a long keyword", deck(nodes=SECTIONS["nodes"].replace("*NODE", "*NODE+")), "*NODE card 1")
+    refused("a comma too many", deck(load=cards("LOAD_BODY_Y", "1,5.0,,,,,,,9")), "expected at most 7 comma-separated fields, found 9")
+
+
 def held_nodes(tc, *nodes, rc=None):
     """The nodes with TC (and RC) for some of them."""
     lines = []
@@ -776,6 +819,10 @@ def local_parameters():
     ):
         same("local: " + name, deck(**changes), files=files, notes=None if "two files" in name else [])
         clean(files)
+    files = {"s.k": LOCAL + pair("Rt", "0.5") + "\n" + section}
+    same("-D leaves a local parameter of an include", deck(early=GLOBAL + pair("Rt", "0.3") + "\n*DATABASE_RWFORC\n" + fixed("&t"), section="*INCLUDE\ns.k"), files=files, options=["-D", "t=9.0"], notes=None)
+    refused("-D of a local parameter of an include", deck(section="*INCLUDE\ns.k"), "-D t=9.0: the deck has no such parameter", files=files, options=["-D", "t=9.0"], problems=1)
+    clean(files)
     same("-D of a local parameter", deck(early=LOCAL + pair("Rt", "9.0"), section=section), options=["-D", "t=0.5"], notes=[])
     for name, changes, files, words in (
         ("twice", dict(early=LOCAL + pair("Rt", "0.5", "Rt", "0.5"), section=section), {}, "parameter T is defined twice; the first is at"),
