@@ -15,13 +15,13 @@ module scene_controls
 
 contains
 
-  !> First record of a mandatory keyword; 0 and a problem if it is absent.
-  integer function required(deck, keyword)
+  !> First record of a mandatory keyword; 0 and a problem with its reason if it is absent.
+  integer function required(deck, keyword, why)
     type(deck_t), intent(inout) :: deck
-    character(*), intent(in) :: keyword
+    character(*), intent(in) :: keyword, why
     required = deck%next(keyword, 1, 0)
-    if (required == 0) &
-        call add_problem(deck%problems, deck%file(1)%path//': the deck needs *'//keyword)
+    if (required == 0) call add_problem(deck%problems, deck%file(1)%path// &
+        ': the deck needs *'//keyword//why)
   end function required
 
   !> Time and scheme, mass, ledger.
@@ -32,19 +32,21 @@ contains
     r = deck%next('TITLE', 1, 0)
     if (r > 0) model%title = deck%word(r, 'TITLE')
     associate (controls => model%controls)
-      r = required(deck, 'CONTROL_TERMINATION')
+      r = required(deck, 'CONTROL_TERMINATION', '')
       if (r > 0) then
         controls%end_time = deck%real(r, 'ENDTIM')
         controls%end_cycle = deck%integer(r, 'ENDCYC')
         controls%end_ratio = deck%real(r, 'ENDENG')/100.0_wp
       end if
-      r = required(deck, 'CONTROL_IMPLICIT_GENERAL')
+      r = required(deck, 'CONTROL_IMPLICIT_GENERAL', &
+          ' with IMFLAG 1: explicit integration is not available in this version')
       if (r > 0) then
         controls%dt = deck%real(r, 'DT0')
         if (deck%integer(r, 'IMFLAG') /= 1) call deck%complain(r, 'IMFLAG', &
             'expected 1: explicit integration is not available in this version')
       end if
-      r = required(deck, 'CONTROL_IMPLICIT_DYNAMICS')
+      r = required(deck, 'CONTROL_IMPLICIT_DYNAMICS', &
+          ' with IMASS 1: static analysis is not available in this version')
       if (r > 0) call read_dynamics(deck, controls, r)
       call read_scheme(deck, controls)
       call read_mass(deck, controls)

@@ -9,7 +9,7 @@ import sys
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import scenes
 from format_defaults import BESIDE_THE_SCENE, BEYOND, OF_THE_SCENE, cards, long
-from plain import SECTIONS, deck, fixed, node, refused, same, shell
+from plain import SECTIONS, deck, fixed, node, refused, remove_files, same, shell
 from scenes import check, finish
 
 
@@ -426,10 +426,10 @@ def includes():
         ("a folder above that an include names", "*INCLUDE\nfar/path.k", {"far/path.k": "*INCLUDE_PATH_RELATIVE\n../other\n*END\n", "other/mesh.k": MESH}),
     ):
         same(name, deck(early=early, **here), files=files, notes=None)
-        clean(files)
+        remove_files(files)
     same("the first folder wins", deck(early="*INCLUDE_PATH_RELATIVE\nfirst\nsecond", **here), files={"first/mesh.k": MESH, "second/mesh.k": "*NONSENSE"})
     same("the file's own folder wins", deck(early="*INCLUDE_PATH_RELATIVE\nfirst", **here), files={"mesh.k": MESH, "first/mesh.k": "*NONSENSE"})
-    clean({"mesh.k": ""})
+    remove_files({"mesh.k": ""})
     same("an include of an include", deck(early="*INCLUDE_PATH_RELATIVE\nsecond", nodes="*INCLUDE\nfirst/a.k", elements=""),
          files={"first/a.k": "*INCLUDE\nb.k\n*INCLUDE\nc.k\n", "first/b.k": SECTIONS["nodes"], "second/c.k": SECTIONS["elements"]}, notes=[])
     for name, text in (
@@ -441,7 +441,7 @@ def includes():
         ("carriage returns", "*INCLUDE\r\nnodes.k\r\nelements.k\r"),
     ):
         same(name, deck(nodes=text, elements=""), files={"nodes.k": SECTIONS["nodes"], "elements.k": SECTIONS["elements"]})
-    clean({"mesh.k": "", "far/mesh.k": ""})
+    remove_files({"mesh.k": "", "far/mesh.k": ""})
     for name, early, files, words in (
         ("no such file", "", {}, ['cannot read "', "refused", 'mesh.k"', "or to a folder of *INCLUDE_PATH"]),
         ("in no folder", "*INCLUDE_PATH_RELATIVE\nnowhere", {}, ["*INCLUDE: cannot read", "mesh.k"]),
@@ -453,18 +453,10 @@ def includes():
     ):
         late = "*INCLUDE_PATH_RELATIVE\nfar" if "late" in name else ""
         refused(name, deck(early=early, more=late, **here), *words, files=files)
-        clean(files)
+        remove_files(files)
     refused("no name", deck(more="*INCLUDE"), "*INCLUDE: the name of a file is missing", problems=1)
     refused("no name but blanks", deck(more="*INCLUDE\n\n   \n"), "*INCLUDE: the name of a file is missing", problems=1)
     refused("a folder as a file", deck(more="*INCLUDE\nround"), "*INCLUDE: ", files={"round/x": ""})
-
-
-def clean(files):
-    """Removes files that a deck included, so that no other deck finds them."""
-    for name in files:
-        path = os.path.join(scenes.TMP, name)
-        if os.path.exists(path):
-            os.remove(path)
 
 
 def sets():
@@ -567,7 +559,7 @@ def forms():
         same(name + ": the file above stays as it is", deck(**here), files={"mesh.k": mesh + "\n*END\n"}, notes=None)
     same("an include of a long include", deck(**here), files={"mesh.k": "*KEYWORD LONG=Y\n*INCLUDE\nmesh2.k\n*END\n", "mesh2.k": bare}, notes=[])
     same("LONG=S of an include of a long include", deck(**here), files={"mesh.k": "*KEYWORD LONG=Y\n*INCLUDE\nmesh2.k\nmesh3.k\n*END\n", "mesh2.k": "*KEYWORD LONG=S\n" + SECTIONS["nodes"], "mesh3.k": bare[bare.index("*ELEM"):]}, notes=[])
-    clean({"mesh.k": "", "mesh2.k": "", "mesh3.k": ""})
+    remove_files({"mesh.k": "", "mesh2.k": "", "mesh3.k": ""})
     commas = re.sub(r"(?m)^( +[-0-9.]+)+$", lambda m: ",".join(m.group().split()) + ",", MESH)
     same("a mesh in comma form", deck(nodes=commas, elements=""), notes=[])
     same("comma form with many blanks", deck(nodes=commas.replace(",", "  ,   "), elements=""), notes=[])
@@ -818,11 +810,11 @@ def local_parameters():
         ("a word", dict(early=LOCAL + pair("Cw", "MECH"), held="*SET_NODE_LIST\n" + fixed(1, None, None, None, None, "&w") + "\n" + fixed(13, 16)), {}),
     ):
         same("local: " + name, deck(**changes), files=files, notes=None if "two files" in name else [])
-        clean(files)
+        remove_files(files)
     files = {"s.k": LOCAL + pair("Rt", "0.5") + "\n" + section}
     same("-D leaves a local parameter of an include", deck(early=GLOBAL + pair("Rt", "0.3") + "\n*DATABASE_RWFORC\n" + fixed("&t"), section="*INCLUDE\ns.k"), files=files, options=["-D", "t=9.0"], notes=None)
     refused("-D of a local parameter of an include", deck(section="*INCLUDE\ns.k"), "-D t=9.0: the deck has no such parameter", files=files, options=["-D", "t=9.0"], problems=1)
-    clean(files)
+    remove_files(files)
     same("-D of a local parameter", deck(early=LOCAL + pair("Rt", "9.0"), section=section), options=["-D", "t=0.5"], notes=[])
     for name, changes, files, words in (
         ("twice", dict(early=LOCAL + pair("Rt", "0.5", "Rt", "0.5"), section=section), {}, "parameter T is defined twice; the first is at"),
@@ -832,7 +824,7 @@ def local_parameters():
         ("one of all files twice", dict(early=GLOBAL + pair("Rt", "0.5") + "\n*INCLUDE\np.k", section=section), {"p.k": GLOBAL + pair("Rt", "0.5")}, "parameter T is defined twice"),
     ):
         refused("local: " + name, deck(**changes), words, files=files, problems=1)
-        clean(files)
+        remove_files(files)
 
 
 def curve_deck(*lines, load=5.0):

@@ -94,6 +94,14 @@ def write_files(files):
             out.write(text)
 
 
+def remove_files(files):
+    """Removes files that a deck included, so that no other deck finds them."""
+    for name in files:
+        path = os.path.join(scenes.TMP, name)
+        if os.path.exists(path):
+            os.remove(path)
+
+
 def rows_of(folder):
     """{table: its text without the lines of the header}."""
     found = {}
