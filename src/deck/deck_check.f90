@@ -31,6 +31,9 @@ contains
               'the card of _TITLE or _ID ends at column 80', line, '')
           if (head /= head_id) return
           call read_head(line, long, id, ok)
+          if (ok .and. looks_like_card(line, long)) call deck%complain_at(file, r%line, 0, 0, &
+              'the heading looks like a card', line, &
+              '_ID puts a card with number and heading before each card')
           if (.not. ok) call deck%complain_at(file, r%line, 1, merge(20, 10, long), &
               'the card of _ID begins with an integer in '//trim(merge('twenty', 'ten   ', &
               long))//' columns, found "'//line(1:min(merge(20, 10, long), len(line)))//'"', &
@@ -39,6 +42,26 @@ contains
       end associate
     end associate
   end subroutine check_head
+
+  !> Does a heading after a number consist of two numbers or more, as a card does?
+  pure logical function looks_like_card(line, long)
+    character(*), intent(in) :: line
+    logical, intent(in) :: long
+    real(wp) :: value
+    integer :: first, last, numbers
+    looks_like_card = .false.
+    numbers = 0
+    last = merge(20, 10, long)
+    do
+      first = verify(line(min(last + 1, len(line) + 1):), ' ') + last
+      if (first <= last) exit
+      last = first + scan(line(first:)//' ', ' ') - 2
+      call convert(line(first:last), 'R', value, looks_like_card)
+      if (.not. looks_like_card) return
+      numbers = numbers + 1
+    end do
+    looks_like_card = numbers > 1
+  end function looks_like_card
 
   !> All checks of a record; every problem is added to the deck.
   subroutine check_card(deck, record)

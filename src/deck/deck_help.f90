@@ -3,7 +3,7 @@
 module deck_help
   use base_strings, only: to_text
   use deck_table, only: table_t, keyword_t, field_t, keyword_used, keyword_skipped, &
-      keyword_refused, field_honoured, field_tuning, field_fixed, field_ignored
+      keyword_refused, keyword_frame, field_honoured, field_tuning, field_fixed, field_ignored
   implicit none
   private
   public :: write_usage, write_keywords, write_keyword
@@ -41,8 +41,15 @@ contains
     integer, intent(in) :: unit
     integer :: k
     do k = 1, table%n
-      if (table%keyword(k)%class == keyword_used .and. .not. table%keyword(k)%noted) &
-          call write_used(table%keyword(k), unit)
+      if (table%keyword(k)%class == keyword_frame) write (unit, '(a)') '- `*'// &
+          trim(table%keyword(k)%name)//'` '//trim(table%keyword(k)%help)
+    end do
+    write (unit, '(a)') ''
+    do k = 1, table%n
+      associate (keyword => table%keyword(k))
+        if (keyword%class == keyword_used .and. .not. keyword%noted) &
+            call write_used(keyword, unit, with_cards=keyword%name == keyword%canonical)
+      end associate
     end do
     write (unit, '(a)') '## Read without effect'
     write (unit, '(a)') ''
@@ -65,7 +72,9 @@ contains
     associate (keyword => table%keyword(row))
       select case (keyword%class)
       case (keyword_used)
-        call write_used(keyword, unit)
+        call write_used(keyword, unit, with_cards=.true.)
+      case (keyword_frame)
+        write (unit, '(a)') '*'//trim(keyword%name)//' '//trim(keyword%help)//' (doc/deck.md)'
       case (keyword_skipped)
         write (unit, '(a)') '*'//trim(keyword%name)//' is skipped with a note: '// &
             trim(keyword%help)
@@ -76,16 +85,17 @@ contains
     end associate
   end subroutine write_keyword
 
-  !> A keyword with its cards; of another name for one, which it stands for.
-  subroutine write_used(keyword, unit)
+  !> A keyword, with its cards or not.
+  subroutine write_used(keyword, unit, with_cards)
     type(keyword_t), intent(in) :: keyword
     integer, intent(in) :: unit
+    logical, intent(in) :: with_cards
     integer :: c
     write (unit, '(a)') '### *'//trim(keyword%name)
     write (unit, '(a)') ''
     write (unit, '(a)') capital(trim(keyword%help))//'.'//trim(options(keyword))
     write (unit, '(a)') ''
-    if (keyword%name /= keyword%canonical) return
+    if (.not. with_cards) return
     do c = 1, keyword%cards
       call write_card(keyword, c, unit)
     end do

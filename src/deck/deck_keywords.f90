@@ -8,7 +8,7 @@ module deck_keywords
   use deck_keywords_other, only: add_refused_keywords
   use deck_keywords_own, only: add_own_keywords
   use deck_keywords_skipped, only: add_skipped_keywords
-  use deck_table, only: table_t, add_keyword, add_card, add_field
+  use deck_table, only: table_t, add_keyword, add_card, add_field, keyword_frame
   implicit none
   private
   public :: fill_table, complete_table
@@ -31,12 +31,34 @@ contains
   subroutine complete_table(table)
     type(table_t), intent(inout) :: table
     if (table%is_complete) return
+    call add_reader_keywords(table)
     call add_skipped_keywords(table)
     call add_refused_keywords(table)
     table%is_complete = .true.
   end subroutine complete_table
 
-  !> *PARAMETER, *INCLUDE, *KEYWORD and *END have no row: the reader itself obeys them.
+  !> What the reader itself obeys has no cards here.
+  subroutine add_reader_keywords(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'KEYWORD', 'begins a deck; LONG=Y makes fields 20 columns wide', &
+        class=keyword_frame)
+    call add_keyword(table, 'END', 'ends a file', class=keyword_frame)
+    call add_keyword(table, 'INCLUDE', 'names of files, one a line, read here', &
+        class=keyword_frame)
+    call add_keyword(table, 'INCLUDE_PATH', 'folders of included files, one a line', &
+        class=keyword_frame)
+    call add_keyword(table, 'INCLUDE_PATH_RELATIVE', &
+        'the same, relative to the file with this card', class=keyword_frame)
+    call add_keyword(table, 'PARAMETER', &
+        'names and values, four pairs of 10 and 10 columns a card', class=keyword_frame)
+    call add_keyword(table, 'PARAMETER_LOCAL', &
+        'the same, for one file and what it includes below', class=keyword_frame)
+    call add_keyword(table, 'PARAMETER_EXPRESSION', &
+        'one a card: a name in 10 columns, then an expression', class=keyword_frame)
+    call add_keyword(table, 'PARAMETER_EXPRESSION_LOCAL', &
+        'the same, for one file and what it includes below', class=keyword_frame)
+  end subroutine add_reader_keywords
+
   subroutine add_frame(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'TITLE', 'title of the run', required=1, once=.true.)

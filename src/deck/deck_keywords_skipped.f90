@@ -13,8 +13,9 @@ contains
   !> Adds what is skipped with a note; where one field of it would matter, the cards are read.
   subroutine add_skipped_keywords(table)
     type(table_t), intent(inout) :: table
-    call skip(table, [character(keyword_length) :: 'COMMENT'], &
-        'a comment')
+    call skip(table, [character(keyword_length) :: 'COMMENT'], 'a comment')
+    call skip(table, [character(keyword_length) :: 'KEYWORD_ID', 'KEYWORD_JOBID'], &
+        'it names the run, no more')
     call add_elements_and_sets(table)
     call add_controls(table)
     call add_other_outputs(table)
@@ -179,7 +180,7 @@ contains
     type(table_t), intent(inout) :: table
     integer :: k
     call add_keyword(table, 'CONTROL_CONTACT', 'it tunes penalty contact; friction of all '// &
-        'contacts (SFRIC, DFRIC) must be blank', required=1, once=.true., noted=.true.)
+        'contacts (SFRIC, DFRIC) must be blank', required=1, noted=.true.)
     do k = 1, 6
       call add_card(table)
       if (k == 2) then
@@ -198,7 +199,7 @@ contains
   subroutine add_control_timestep(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'CONTROL_TIMESTEP', 'it concerns explicit steps; mass scaling '// &
-        '(DT2MS) must be blank', required=1, once=.true., noted=.true.)
+        '(DT2MS) must be blank', required=1, noted=.true.)
     call add_card(table)
     call add_field(table, 'DTINIT', 'R10 ignored')
     call add_field(table, 'TSSFAC', 'R10 ignored')
@@ -224,7 +225,7 @@ contains
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'CONTROL_IMPLICIT_AUTO', &
         'steps are those of DT0; automatic steps (IAUTO) are not available', required=1, &
-        once=.true., noted=.true.)
+        noted=.true.)
     call add_card(table)
     call add_field(table, 'IAUTO', 'I10 fixed', 'steps are those of DT0')
     call add_ignored(table, 7)
@@ -235,7 +236,7 @@ contains
   subroutine add_control_solution(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'CONTROL_SOLUTION', 'the analysis is structural; thermal '// &
-        'analysis (SOLN) must be 0', required=1, once=.true., noted=.true.)
+        'analysis (SOLN) must be 0', required=1, noted=.true.)
     call add_card(table)
     call add_field(table, 'SOLN', 'I10 fixed', '0 = structural')
     call add_ignored(table, 7)
@@ -246,7 +247,7 @@ contains
     type(table_t), intent(inout) :: table
     integer :: k
     call add_keyword(table, 'CONTROL_SHELL', 'it concerns real shells, not plane elements; '// &
-        'what deletes elements must be blank', required=1, once=.true., noted=.true.)
+        'what deletes elements must be blank', required=1, noted=.true.)
     do k = 1, 2
       call add_card(table)
       call add_ignored(table, 8)

@@ -7,19 +7,16 @@ module deck_reader
   use deck_card, only: start_block, read_cards, note_blank_line
   use deck_data, only: deck_t
   use deck_folders, only: read_folders, read_file_name, find_include
-  use deck_keywords, only: complete_table
+  use deck_match, only: match_name, base_of
   use deck_parameter, only: override_t, read_parameters, read_expressions, &
       report_unused_overrides
   use deck_problems, only: add_note
   use deck_source, only: cursor_t, load_file, next_line
-  use deck_table, only: find_keyword, find_nearest, family_of, keyword_used, &
-      keyword_skipped, keyword_refused
+  use deck_table, only: find_nearest, keyword_used, keyword_skipped, keyword_refused
   implicit none
   private
   integer, parameter :: include_depth = 16
   integer, parameter :: include_limit = 1000
-  !> The card of _TITLE or _ID.
-  integer, parameter :: head_none = 0, head_title = 1, head_id = 2
   public :: read_deck, read_deck_text
 
 contains
@@ -103,9 +100,6 @@ contains
       case ('KEYWORD')
         call read_options(deck, cursor, long)
         more = next_line(deck%file(file), cursor)
-      case ('KEYWORD_ID', 'KEYWORD_JOBID')
-        call add_note(deck%problems, '*'//name//' is skipped: it names the run, no more')
-        call skip_cards(deck, cursor, more, is_text=.true.)
       case ('INCLUDE')
         call read_include(deck, cursor, depth, overrides, long, more)
       case ('INCLUDE_PATH', 'INCLUDE_PATH_RELATIVE')
@@ -213,7 +207,7 @@ contains
     logical, intent(out) :: more
     integer :: row, head
     logical :: used
-    call match_name(deck, name, row, head)
+    call match_name(deck%table, name, row, head)
     used = .false.
     if (name == 'TITLE' .and. deck%file(cursor%file)%parent > 0) then
       call add_note(deck%problems, deck%file(cursor%file)%path// &
@@ -236,7 +230,8 @@ contains
       more = next_line(deck%file(cursor%file), cursor)
       call read_cards(deck, cursor, head, more)
     else
-      call skip_cards(deck, cursor, more, is_text=name == 'COMMENT')
+      call skip_cards(deck, cursor, more, &
+          is_text=name == 'COMMENT' .or. index(name, 'KEYWORD_') == 1)
     end if
   end subroutine read_block
 
@@ -260,73 +255,13 @@ contains
     end do
   end subroutine skip_cards
 
-  !> Row of the table for a name with its option _TITLE or _ID; then families of names.
-  subroutine match_name(deck, name, row, head)
-    type(deck_t), intent(inout) :: deck
-    character(*), intent(in) :: name
-    integer, intent(out) :: row, head
-    integer :: nearest, distance, prefix
-    call match_row(deck, name, row, head)
-    if (row > 0) return
-    call complete_table(deck%table)
-    call match_row(deck, name, row, head)
-    if (row > 0 .or. base_of(deck, name) > 0) return
-    ! A slip of the pen must not pass for a keyword of a family that is refused.
-    row = family_of(deck%table, name)
-    if (row == 0) return
-    prefix = index(deck%table%keyword(row)%name, '*') - 1
-    call find_nearest(deck%table, name, nearest, distance)
-    if (distance <= min(2, (len(name) - prefix)/4) &
-        .and. deck%table%keyword(nearest)%class /= keyword_refused) row = 0
-  end subroutine match_name
-
-  pure subroutine match_row(deck, name, row, head)
-    type(deck_t), intent(in) :: deck
-    character(*), intent(in) :: name
-    integer, intent(out) :: row, head
-    head = head_none
-    row = find_keyword(deck%table, name)
-    if (row > 0) return
-    if (ends_with(name, '_TITLE')) then
-      row = find_keyword(deck%table, name(1:len(name) - 6))
-      if (row > 0) then
-        if (deck%table%keyword(row)%may_title) head = head_title
-        if (deck%table%keyword(row)%title_is_id) head = head_id
-      end if
-    else if (ends_with(name, '_ID')) then
-      row = find_keyword(deck%table, name(1:len(name) - 3))
-      if (row > 0) head = merge(head_id, head_none, deck%table%keyword(row)%may_id)
-    end if
-    if (row == 0) return
-    if (head == head_none .and. deck%table%keyword(row)%class == keyword_used) row = 0
-  end subroutine match_row
-
-  !> The keyword that a name consists of apart from a last _OPTION; 0 if there is none.
-  pure integer function base_of(deck, name)
-    type(deck_t), intent(in) :: deck
-    character(*), intent(in) :: name
-    integer :: bar
-    base_of = 0
-    bar = index(name, '_', back=.true.)
-    if (bar > 1) base_of = find_keyword(deck%table, name(1:bar - 1))
-    if (base_of == 0) return
-    if (deck%table%keyword(base_of)%class /= keyword_used) base_of = 0
-  end function base_of
-
-  pure logical function ends_with(text, tail)
-    character(*), intent(in) :: text
-    character(*), intent(in) :: tail
-    ends_with = len(text) > len(tail)
-    if (ends_with) ends_with = text(len(text) - len(tail) + 1:) == tail
-  end function ends_with
-
   subroutine unknown_keyword(deck, cursor, name)
     type(deck_t), intent(inout) :: deck
     type(cursor_t), intent(in) :: cursor
     character(*), intent(in) :: name
     character(:), allocatable :: hint
     integer :: best, distance
-    best = base_of(deck, name)
+    best = base_of(deck%table, name)
     if (best > 0) then
       hint = '*'//trim(deck%table%keyword(best)%name)//' has no option '// &
           name(index(name, '_', back=.true.):)

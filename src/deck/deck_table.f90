@@ -43,6 +43,7 @@ module deck_table
   integer, parameter, public :: keyword_used = 1
   integer, parameter, public :: keyword_skipped = 2  !< cannot change the solution: one note
   integer, parameter, public :: keyword_refused = 3  !< known, but not available in this version
+  integer, parameter, public :: keyword_frame = 4    !< obeyed by the reader itself
 
   type, public :: keyword_t
     character(keyword_length) :: name = ''       !< a name that ends in * stands for a family
@@ -249,7 +250,7 @@ contains
     find_keyword = table%slot(slot_of(table, name))
   end function find_keyword
 
-  !> The row whose name is the fewest single-character edits away.
+  !> The row whose name is the fewest single-character edits away; no family.
   pure subroutine find_nearest(table, name, best, distance)
     type(table_t), intent(in) :: table
     character(*), intent(in) :: name
@@ -260,6 +261,7 @@ contains
     do k = 1, table%n
       ! Each edit changes the length by one at most.
       if (abs(len_trim(table%keyword(k)%name) - min(len(name), 64)) >= distance) cycle
+      if (table%keyword(k)%stem > 0) cycle
       d = edit_distance(name(1:min(len(name), 64)), trim(table%keyword(k)%name))
       if (d >= distance) cycle
       distance = d

@@ -15,7 +15,8 @@ module run_program
   use base_version, only: version
   use deck_help, only: write_keywords, write_keyword, write_usage
   use deck_keywords, only: fill_table, complete_table
-  use deck_table, only: table_t, find_keyword, find_nearest, family_of
+  use deck_match, only: match_name
+  use deck_table, only: table_t, find_nearest
   use output_storage, only: storage_t
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
@@ -66,19 +67,18 @@ contains
 
   !> Prints the table of keywords, or the one that is named.
   subroutine tell_keywords(table, arguments, status)
-    type(table_t), intent(in) :: table
+    type(table_t), intent(inout) :: table
     type(arguments_t), intent(in) :: arguments
     type(status_t), intent(inout) :: status
     character(:), allocatable :: name
-    integer :: row, distance
+    integer :: row, head, distance
     if (.not. allocated(arguments%deck)) then
       call write_keywords(table, output_unit)
       return
     end if
     name = upper(arguments%deck)
     if (name(1:1) == '*') name = name(2:)
-    row = find_keyword(table, name)
-    if (row == 0) row = family_of(table, name)
+    call match_name(table, name, row, head)
     if (row > 0) then
       call write_keyword(table, row, output_unit)
     else

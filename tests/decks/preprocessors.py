@@ -4,6 +4,7 @@ it: they must be refused, with the right words."""
 
 import os
 import re
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
@@ -226,6 +227,7 @@ def names():
     same("all before the rest", deck(title=text + "\n" + SECTIONS["title"]), notes=None)
     for name in ("HOURGLASS", "HOURGLASS_TITLE", "SET_SOLID", "SET_BEAM_LIST_TITLE", "SET_TSHELL_LIST", "COMMENT"):
         same(name, deck(more=cards(name, "anything", fixed(1, 2, 3))), notes=["*%s is skipped: " % name])
+    same("controls without effect twice", deck(more="\n".join(2 * [cards(n, fixed(0)) for n in ("CONTROL_CONTACT", "CONTROL_SHELL", "CONTROL_SOLUTION", "CONTROL_TIMESTEP")])), notes=["CONTROL_"] * 4)
     same("twice, one note", deck(more=2 * (cards("DATABASE_ABSTAT", fixed(1)) + "\n")), notes=["*DATABASE_ABSTAT"])
     same("in lower case, with a remark", deck(more="*database_abstat $ of airbags\n" + fixed(1)), notes=["*DATABASE_ABSTAT"])
     same("mass properties", deck(tables=SECTIONS["tables"].replace("GLSTAT", "GLSTAT_MASS_PROPERTIES")), notes=[])
@@ -248,9 +250,22 @@ def names():
         ("HOURGLAS", "HOURGLASS"),
         ("SET_NODES_LIST", "SET_NODE_LIST"),
         ("INITIAL_VELOCTY", "INITIAL_VELOCITY"),
+        ("PARAMTER", "PARAMETER"),
+        ("PARAMETER_EXPRESION", "PARAMETER_EXPRESSION"),
+        ("INCLUDES", "INCLUDE"),
+        ("EDN", "END"),
     ):
         refused(name, deck(more=cards(name, fixed(1))), "unknown keyword *" + name,
                 "the nearest known one is *" + nearest, problems=1)
+    for name, words in (
+        ("NODE", "| NID | 1-8 |"), ("set_node", "| NID8 | 71-80 |"), ("*SET_NODE_LIST_TITLE", "### *SET_NODE_LIST"), ("BOUNDARY_SPC_SET_ID", "### *BOUNDARY_SPC_SET"),
+        ("PARAMETER", "*PARAMETER names and values"), ("END", "*END ends a file"), ("HOURGLASS", "*HOURGLASS is skipped with a note: elements are fully integrated"),
+        ("CONTROL_CONTACT", "| SFRIC | 1-10 |"), ("ELEMENT_SHELL_THICKNESS", "*ELEMENT_SHELL_THICKNESS is not available in this version"), ("SENSOR_SWITCH", "*SENSOR_* is not available in this version"),
+    ):
+        done = subprocess.run([scenes.BIPACT, "--keywords", name], stdout=subprocess.PIPE, text=True)
+        check(done.returncode == 0 and words in done.stdout, "--keywords %s: %s" % (name, done.stdout[:200]))
+    done = subprocess.run([scenes.BIPACT, "--keywords", "NOED"], stderr=subprocess.PIPE, text=True)
+    check(done.returncode == 2 and "the nearest known one is *NODE" in done.stderr, "--keywords NOED")
     for name in (
         "CONTROL_TERMINATION_FOO", "DATABASE_GLSTAT_FOO", "NODE_FOO", "SET_NODE_LIST_FOO", "TITLE_TITLE",
         "NODE_TITLE", "INITIAL_VELOCITY_TITLE",
@@ -393,6 +408,14 @@ def heads():
             same('%s "%s"' % (name, head), deck(early=SETS_2, **{section: text.replace("%s", head)}), plain_deck, notes=[])
         refused(name + " with a word", deck(early=SETS_2, **{section: text.replace("%s", "        1x")}), "the card of _ID begins with an integer")
         refused(name + " with a fraction", deck(early=SETS_2, **{section: text.replace("%s", "       1.5")}), "the card of _ID begins with an integer")
+    for name, lines in (
+        ("no heading at all", [fixed(13, 0, 1, 1), fixed(16, 0, 1, 1)]),
+        ("one heading for three nodes", ["         1held", fixed(13, 0, 1, 1), fixed(15, 0, 1, 1), fixed(16, 0, 1, 1)]),
+        ("the second heading is missing", ["         1held", fixed(13, 0, 1, 1), fixed(16, 0, 1, 1), fixed(15, 0, 1, 1)]),
+    ):
+        refused("_ID: " + name, deck(support=cards("BOUNDARY_SPC_NODE_ID", *lines)), "the heading looks like a card", problems=1)
+    same("a heading of a number", deck(support=cards("BOUNDARY_SPC_SET_ID", fixed(1) + "  2", fixed(1, 0, 1, 1))), notes=[])
+    same("a heading with numbers", deck(support=cards("BOUNDARY_SPC_SET_ID", fixed(1) + "  2 of 3", fixed(1, 0, 1, 1))), notes=[])
     same("two sections with titles", deck(section="*SECTION_SHELL_TITLE\nfirst\n" + SECTIONS["section"].split("\n", 1)[1] + "\nsecond\n" + fixed(2, 12) + "\n" + fixed(3.0)), notes=[])
     same("histories with headings",
          deck(nodes_of_nodout="*DATABASE_HISTORY_NODE_ID\n" + "\n".join(fixed(n) + h for n, h in zip((1, 3, 6, 11, 13, 14, 16), ("foot", "", "top, left", " 5", "a, b, c", "x" * 70, "1,2"))),

@@ -66,7 +66,25 @@ NUMBERS = [
     "1e-20",
     "12",
     "13",
+    "4.0",
+    "0.0MECH",
+    "1.0E+3",
+    "1.-3",
+    "&x",
+    "-&vx",
+    "7",
 ]
+TOKENS = b"""+ - * / ** ( ) , 1 2 0 3.5 1e3 1.e-2 .5 1d2 pi sin( sqrt( mod( min( max( atan2( int( nint( exp( log(
+    abs( & &x &vx -&dt x vx end two h t 2**-1 1/0 ) ) 1.0/3 -- ^ % 2147483647 99999999999 1e200 _ e5""".split()
+CLAUSES = b"ALL NODE DNODE PART DPART BOX DBOX ELEM DELEM SEG DSEG TUBE all".split()
+OPTIONS = [
+    (b"_LIST", b"_GENERAL"), (b"_LIST", b"_COLUMN"), (b"_LIST", b"_LIST_GENERATE"), (b"_GENERAL", b"_LIST"),
+    (b"_COLUMN", b"_GENERAL"), (b"_LIST", b"_ADD"), (b"_SET", b"_NODE"), (b"_NODE", b"_SET"), (b"_ID", b""),
+    (b"_TITLE", b""), (b"_LOCAL", b""), (b"PARAMETER", b"PARAMETER_LOCAL"), (b"PARAMETER", b"PARAMETER_EXPRESSION"),
+    (b"PARAMETER_EXPRESSION", b"PARAMETER"), (b"_RELATIVE", b""), (b"_SURFACE_TO", b"_NODE_TO"),
+]
+HEADS = [b"", b"a title, with a comma", b"         7heading", b"7,heading", b"        1x", b"   *NODE", b"         0", b"        -1"]
+PATHS = [b"far", b"far/", b".", b"..", b"nowhere", b"", b"   far", b"far +\n/x", b"./far/../far", b"/", b"*", b"a" * 300]
 BYTES = b"\t\r\n $*,&+-.0123456789eEdDnNaA\x00\x7f\xe9\xff\"'"
 KEYWORDS = []
 
@@ -172,13 +190,113 @@ def mutate_keyword(rng, text):
     return b"\n".join(lines)
 
 
+def blocks_of(lines, name):
+    """Numbers of the lines under keywords whose name holds `name`."""
+    found, inside = [], False
+    for k, line in enumerate(lines):
+        if line[:1] == b"*":
+            inside = name in line.upper()
+        elif inside and line[:1] != b"$":
+            found.append(k)
+    return found
+
+
+def mutate_expression(rng, text):
+    """Tokens of an expression put in, changed, dropped; or an expression more."""
+    lines = text.split(b"\n")
+    found = blocks_of(lines, b"PARAMETER_EXPRESSION")
+    if not found or rng.random() < 0.2:
+        name = rng.choice((b"Rx", b"R new", b"Inew", b"Cnew", b"Rvx", b"")).ljust(10)
+        tokens = b"".join(rng.choice(TOKENS) for _ in range(rng.randrange(1, 12)))
+        k = rng.randrange(len(lines)) if rng.random() < 0.3 else min(3, len(lines))
+        local = rng.choice((b"", b"", b"_LOCAL"))
+        lines[k:k] = [b"*PARAMETER_EXPRESSION" + local, name + tokens]
+        return b"\n".join(lines)
+    k = rng.choice(found)
+    for _ in range(rng.choice((1, 1, 2, 4))):
+        at = rng.randrange(len(lines[k]) + 1)
+        cut = rng.choice((0, 0, 1, 1, 3))
+        lines[k] = lines[k][:at] + rng.choice(TOKENS + [b""]) + lines[k][at + cut :]
+    if rng.random() < 0.1:
+        lines[k:k] = [b" " * 10 + rng.choice(TOKENS)] * rng.choice((1, 2, 25))
+    return b"\n".join(lines)
+
+
+def mutate_parameter(rng, text):
+    """A field that takes a parameter, or a definition more, also of a name that is there."""
+    lines, k = lines_of(rng, text, is_card)
+    name = rng.choice((b"x", b"vx", b"end", b"dt", b"two", b"h", b"styp", b"nope"))
+    if rng.random() < 0.5:
+        width = rng.choice((8, 10, 16))
+        at = width * rng.randrange(0, 8)
+        value = rng.choice((b"&", b"-&", b"&&", b"+&", b"& ")) + name
+        value = value.rjust(width) if rng.random() < 0.5 else value.ljust(width)
+        lines[k] = lines[k].ljust(at)[:at] + value[:width] + lines[k][at + width :]
+    else:
+        k = rng.randrange(len(lines) + 1)
+        keyword = rng.choice((b"*PARAMETER", b"*PARAMETER_LOCAL", b"*PARAMETER+"))
+        kind = rng.choice((b"R", b"I", b"C", b"r", b"X"))
+        lines[k:k] = [keyword, (kind + name).ljust(10) + rng.choice(NUMBERS).encode().rjust(10)]
+    return b"\n".join(lines)
+
+
+def mutate_blanks(rng, text):
+    """Blank lines."""
+    lines = text.split(b"\n")
+    for _ in range(rng.choice((1, 1, 2, 8))):
+        k = rng.randrange(len(lines) + 1)
+        lines[k:k] = [rng.choice((b"", b" ", b" " * 80, b"\r"))] * rng.choice((1, 1, 3))
+    return b"\n".join(lines)
+
+
+def mutate_touching(rng, text):
+    """Blanks between two values dropped, or a value moved to the left of its columns."""
+    lines, k = lines_of(rng, text, is_card)
+    words = [i for i in range(1, len(lines[k])) if lines[k][i - 1 : i] == b" " != lines[k][i : i + 1]]
+    if not words:
+        return text
+    i = rng.choice(words)
+    gap = len(lines[k][:i]) - len(lines[k][:i].rstrip())
+    drop = rng.randrange(1, gap + 1)
+    end = i + len(lines[k][i:].split(b" ")[0])
+    lines[k] = lines[k][: i - drop] + lines[k][i:end] + b" " * rng.choice((0, drop, drop)) + lines[k][end:]
+    return b"\n".join(lines)
+
+
+def mutate_option(rng, text):
+    """A keyword with another option, with or without the card that it brings."""
+    lines, k = lines_of(rng, text, lambda line: line[:1] == b"*")
+    kind = rng.randrange(4)
+    if kind == 0:
+        lines[k] += rng.choice((b"_TITLE", b"_ID", b"+", b" +", b"%", b" %", b"-"))
+        if rng.random() < 0.7:
+            lines[k + 1 : k + 1] = [rng.choice(HEADS)]
+    elif kind == 1:
+        old, new = rng.choice(OPTIONS)
+        fit = [i for i, line in enumerate(lines) if line[:1] == b"*" and old in line] or [k]
+        k = rng.choice(fit)
+        lines[k] = lines[k].replace(old, new, 1)
+    elif kind == 2:
+        found = blocks_of(lines, b"_GENERAL") or [k]
+        k = rng.choice(found)
+        clause = rng.choice(CLAUSES)
+        clause = clause.rjust(10) if rng.random() < 0.7 else clause.ljust(10)
+        numbers = b"".join(rng.choice((b"1", b"2", b"4", b"16", b"0", b"", b"99")).rjust(10) for _ in range(7))
+        lines[k:k] = [clause + numbers]
+    else:
+        lines[k] = rng.choice((b" ", b"*", b"")) + lines[k]
+    return b"\n".join(lines)
+
+
 def mutate_include(rng, text):
     """An include: of itself, of nothing, of a folder, of another deck."""
     lines, k = lines_of(rng, text, lambda line: line[:1] == b"*")
-    lines[k:k] = [
-        b"*INCLUDE",
-        rng.choice((b"deck.k", b"none.k", b".", b"/", b"", b"other.k", b"a +")),
-    ]
+    if rng.random() < 0.4:
+        keyword = rng.choice((b"*INCLUDE_PATH", b"*INCLUDE_PATH_RELATIVE"))
+        lines[k:k] = [keyword] + [rng.choice(PATHS) for _ in range(rng.choice((0, 1, 1, 2)))]
+        return b"\n".join(lines)
+    names = (b"deck.k", b"none.k", b".", b"/", b"", b"other.k", b"a +", b"mesh.k", b"far/mesh.k", b"far/../deck.k")
+    lines[k:k] = [b"*INCLUDE", rng.choice(names)]
     return b"\n".join(lines)
 
 
@@ -209,17 +327,28 @@ MUTATIONS = (
     mutate_cards,
     mutate_keyword,
     mutate_include,
+    mutate_expression,
+    mutate_parameter,
+    mutate_blanks,
+    mutate_touching,
+    mutate_option,
+    mutate_option,
     mutate_whole,
 )
 
 
 def mutant(seed, number, decks):
-    """Text of a mutant."""
+    """Texts of a mutant, {name: text}: the deck, and the mesh that some include, which is the
+    damaged one now and then."""
     rng = random.Random(seed * 1000003 + number)
-    text = decks[rng.choice(sorted(decks))]
+    with open(os.path.join(ROOT, "tests/fuzz/decks/far/mesh.key"), "rb") as file:
+        mesh = file.read()
+    name = rng.choice(sorted(decks))
+    texts = {"deck.k": decks[name], "far/mesh.k": mesh}
+    damaged = "far/mesh.k" if b"mesh.k" in decks[name] and rng.random() < 0.4 else "deck.k"
     for _ in range(rng.choice((1, 1, 1, 2, 3))):
-        text = rng.choice(MUTATIONS)(rng, text)
-    return text
+        texts[damaged] = rng.choice(MUTATIONS)(rng, texts[damaged])
+    return texts
 
 
 def run(arguments, folder):
@@ -280,20 +409,20 @@ def work(task):
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "other.k"), "wb") as file:
             file.write(b"*NODE\n    9001             0.0             0.0\n*END\n")
+        os.mkdir(os.path.join(folder, "far"))
         for number in range(first, count, step):
-            text = mutant(seed, number, decks)
-            with open(os.path.join(folder, "deck.k"), "wb") as file:
-                file.write(text)
+            for name, text in mutant(seed, number, decks).items():
+                with open(os.path.join(folder, name), "wb") as file:
+                    file.write(text)
             wrong, code = judge(program, folder)
             codes[code] = codes.get(code, 0) + 1
             if wrong:
                 failures.append((number, wrong))
                 shutil.rmtree(os.path.join(folder, "out"), ignore_errors=True)
                 if keep:
-                    shutil.copy(
-                        os.path.join(folder, "deck.k"),
-                        os.path.join(keep, "mutant%d.k" % number),
-                    )
+                    for name in ("deck.k", "far/mesh.k"):
+                        kept = "mutant%d.%s" % (number, name.replace("/", "_"))
+                        shutil.copy(os.path.join(folder, name), os.path.join(keep, kept))
     return codes, failures
 
 
