@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The form of a card: whether commas separate its fields, and the number on the card of _ID.
 module deck_form
+  use base_strings, only: position_of
   use deck_number, only: scan_integer
   use deck_table, only: card_t
   implicit none
@@ -15,8 +16,9 @@ contains
     type(card_t), intent(in) :: card
     logical, intent(in) :: long
     integer :: comma
-    comma = index(line, ',')
+    comma = position_of(line, ',')
     has_commas = comma > 0
+    if (.not. has_commas) return
     associate (last => card%field(card%fields))
       if (last%kind == 'T') has_commas = has_commas &
           .and. comma <= merge(20*(card%fields - 1) + 1, last%first, long)

@@ -52,9 +52,11 @@ contains
   subroutine add_controls(table)
     type(table_t), intent(inout) :: table
     call skip(table, [character(keyword_length) :: 'CONTROL_OUTPUT', 'CONTROL_DEBUG', &
-        'CONTROL_UNITS', 'CONTROL_REQUIRE_REVISION', 'CONTROL_STRUCTURED', &
+        'CONTROL_REQUIRE_REVISION', 'CONTROL_STRUCTURED', &
         'CONTROL_STRUCTURED_TERM', 'CONTROL_CPU'], &
         'it concerns files, checks and limits of another program')
+    call skip(table, [character(keyword_length) :: 'CONTROL_UNITS'], &
+        'units are those of the deck')
     call skip(table, [character(keyword_length) :: 'CONTROL_PARALLEL', &
         'CONTROL_MPP_CONTACT_GROUPABLE', 'CONTROL_MPP_DECOMPOSITION_ADAPTIVE', &
         'CONTROL_MPP_DECOMPOSITION_ARRANGE_PARTS', 'CONTROL_MPP_DECOMPOSITION_AUTOMATIC', &
