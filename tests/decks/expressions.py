@@ -1,6 +1,6 @@
 """Random expressions of *PARAMETER_EXPRESSION against an own evaluator: Python's grammar reads
-the same text (the module ast), the rules of Fortran for integers and reals are written here. The
-values come back from the echo deck, where they stand with all their digits."""
+the same text (the module ast), the rules of Fortran for integers and reals are written here.
+The values come back from the echo deck, where they stand with all their digits."""
 
 import ast
 import math
@@ -11,11 +11,19 @@ import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import plain
-import scenes
 from scenes import at_most, check, finish, run_text, show
 
 LARGEST = 2147483647
-NAMES = {"n": 3, "m": -7, "k": 12, "half": 0.5, "c": 1103.25, "eps": 1.0e-3, "v0": -2.75, "sin1": 4.5}
+NAMES = {
+    "n": 3,
+    "m": -7,
+    "k": 12,
+    "half": 0.5,
+    "c": 1103.25,
+    "eps": 1.0e-3,
+    "v0": -2.75,
+    "sin1": 4.5,
+}
 HEAD = "*PARAMETER\n" + "\n".join(
     ("I" if isinstance(v, int) else "R") + name.ljust(9) + repr(v).rjust(10)
     for name, v in NAMES.items()
@@ -75,7 +83,9 @@ def call(name, at, a):
     if name == "mod":
         if a[1] == 0:
             raise Wrong(at, "MOD with a divisor of 0")
-        return a[0] - b * a[1] if integers and (b := quotient(*a)) is not None else math.fmod(*a)
+        return (
+            a[0] - b * a[1] if integers and (b := quotient(*a)) is not None else math.fmod(*a)
+        )
     if name == "atan2":
         if a[0] == 0 and a[1] == 0:
             raise Wrong(at, "ATAN2 of 0 and 0")
@@ -104,7 +114,7 @@ def operate(kind, at, a, b):
             raise Wrong(at, "an integer to a negative power")
         if a != 0 and b * math.log(abs(a)) > 230:
             raise Unwanted
-        value = a**b if integers else float(a) ** float(b)
+        value = a ** b if integers else float(a) ** float(b)
     else:
         value = {ast.Add: a + b, ast.Sub: a - b, ast.Mult: a * b}[kind]
     if integers and abs(value) > LARGEST:
@@ -222,8 +232,8 @@ def cut(text, at, room):
 
 
 def random_values():
-    """300 random expressions: the value that Python finds, to 1e-15 (an operation of each side is
-    rounded alike; the functions are those of one library), integers exactly."""
+    """300 random expressions: the value that Python finds, to 1e-15 (an operation of each side
+    is rounded alike; the functions are those of one library), integers exactly."""
     rng = random.Random(20260105)
     drawn = [draw(rng, False) for _ in range(300)]
     early, points = [HEAD, "*PARAMETER_EXPRESSION"], ["*DEFINE_CURVE", plain.fixed(99)]
@@ -243,9 +253,15 @@ def random_values():
     for (k, back), (text, value) in zip(found, drawn):
         error = abs(float(back) - value) / (abs(value) or 1.0)
         worst = max(worst, error)
-        check(error <= (0.0 if isinstance(value, int) else 1.0e-15), "%s = %r, found %s" % (text, value, back))
+        check(
+            error <= (0.0 if isinstance(value, int) else 1.0e-15),
+            "%s = %r, found %s" % (text, value, back),
+        )
     at_most(worst, 1.0e-15, "largest relative difference")
-    show("operators and functions: %d" % sum(len(re.findall(r"[-+*/]|\w+ ?\(", t)) for t, _ in drawn))
+    show(
+        "operators and functions: %d"
+        % sum(len(re.findall(r"[-+*/]|\w+ ?\(", t)) for t, _ in drawn)
+    )
 
 
 def refusals(name, wrong):
@@ -267,30 +283,45 @@ def refusals(name, wrong):
         for row, column, words, text in expected:
             place = ":%d, column %d: *PARAMETER_EXPRESSION card" % (row, column)
             said = [x for x in errors.split("\n") if place in x]
-            check(said and words in said[0], '"%s": no "%s" at %d, %d' % (text, words, row, column))
+            check(
+                said and words in said[0],
+                '"%s": no "%s" at %d, %d' % (text, words, row, column),
+            )
         check("%d problem" % len(part) in errors, "%s: %s" % (name, errors))
 
 
 def number(rng):
     """(text, value) of a number as programs write them: digits on one or both sides of a point,
     exponents by E, e, D, d or a bare sign."""
-    digits = "".join(rng.choice("0123456789") for _ in range(rng.choice((1, 2, 3, 6, 15, 16, 17, 18))))
+    digits = "".join(
+        rng.choice("0123456789") for _ in range(rng.choice((1, 2, 3, 6, 15, 16, 17, 18)))
+    )
     point = rng.randrange(len(digits) + 1)
     mantissa = rng.choice(("", "", "-", "+")) + digits[:point] + "." + digits[point:]
     power = rng.randrange(-30, 31)
     exponent = rng.choice(("", "E%d", "e%+d", "D%+03d", "d%d", "%+d"))
-    return mantissa + (exponent and exponent % power), float(mantissa + (exponent and "e%d" % power))
+    return mantissa + (exponent and exponent % power), float(
+        mantissa + (exponent and "e%d" % power)
+    )
 
 
 def random_numbers():
     """600 numbers in all the forms that the format knows: each is the double that is nearest to
     it, as Python's is."""
     rng = random.Random(20260107)
-    drawn = [(t, v) for t, v in (number(rng) for _ in range(900)) if len(t) <= 24 and (v == 0.0 or 1.0e-60 < abs(v) < 1.0e60)][:600]
+    drawn = [
+        (t, v)
+        for t, v in (number(rng) for _ in range(900))
+        if len(t) <= 24 and (v == 0.0 or 1.0e-60 < abs(v) < 1.0e60)
+    ][:600]
     early = ["*PARAMETER"] + ["Rp%d,%s" % (k, t) for k, (t, _) in enumerate(drawn)]
     early += ["*PARAMETER_EXPRESSION"] + ["Rq%d,p%d*1.0" % (k, k) for k in range(len(drawn))]
-    points = ["*DEFINE_CURVE", plain.fixed(99)] + ["%d.0,&q%d" % (k, k) for k in range(len(drawn))]
-    folder, code, errors = run_text("numbers", plain.deck(early="\n".join(early), more="\n".join(points)), "--quiet")
+    points = ["*DEFINE_CURVE", plain.fixed(99)] + [
+        "%d.0,&q%d" % (k, k) for k in range(len(drawn))
+    ]
+    folder, code, errors = run_text(
+        "numbers", plain.deck(early="\n".join(early), more="\n".join(points)), "--quiet"
+    )
     check(code == 0, errors)
     with open(os.path.join(folder, "deck.echo.k")) as echo:
         found = re.findall(r"(?m)^\d+\.0,([^,]*),$", echo.read())

@@ -3,15 +3,7 @@ the notes that are expected. Sections are those of tests/support/plain.py."""
 
 import re
 
-from plain import SECTIONS, fixed
-
-
-def long(*values):
-    return fixed(*values, width=20)
-
-
-def cards(keyword, *lines):
-    return "\n".join(["*" + keyword] + list(lines))
+from plain import SECTIONS, cards, fixed, long
 
 
 def appended(section, tail):
@@ -101,7 +93,11 @@ OF_THE_SCENE = [
         "parts",
         "parts",
         cards(
-            "PART", "left", fixed(1, 1, 1, 0, 0, 0, 0, 0), "right", fixed(2, 1, 2, 0, 0, 0, 0, 0)
+            "PART",
+            "left",
+            fixed(1, 1, 1, 0, 0, 0, 0, 0),
+            "right",
+            fixed(2, 1, 2, 0, 0, 0, 0, 0),
         ),
         [],
     ),

@@ -74,17 +74,52 @@ NUMBERS = [
     "-&vx",
     "7",
 ]
-TOKENS = b"""+ - * / ** ( ) , 1 2 0 3.5 1e3 1.e-2 .5 1d2 pi sin( sqrt( mod( min( max( atan2( int( nint( exp( log(
-    abs( & &x &vx -&dt x vx end two h t 2**-1 1/0 ) ) 1.0/3 -- ^ % 2147483647 99999999999 1e200 _ e5""".split()
+TOKENS = b"""+ - * / ** ( ) , 1 2 0 3.5 1e3 1.e-2 .5 1d2 pi sin( sqrt( mod( min( max(
+    atan2( int( nint( exp( log( abs( & &x &vx -&dt x vx end two h t 2**-1 1/0 ) ) 1.0/3 --
+    ^ % 2147483647 99999999999 1e200 _ e5""".split()
 CLAUSES = b"ALL NODE DNODE PART DPART BOX DBOX ELEM DELEM SEG DSEG TUBE all".split()
 OPTIONS = [
-    (b"_LIST", b"_GENERAL"), (b"_LIST", b"_COLUMN"), (b"_LIST", b"_LIST_GENERATE"), (b"_GENERAL", b"_LIST"),
-    (b"_COLUMN", b"_GENERAL"), (b"_LIST", b"_ADD"), (b"_SET", b"_NODE"), (b"_NODE", b"_SET"), (b"_ID", b""),
-    (b"_TITLE", b""), (b"_LOCAL", b""), (b"PARAMETER", b"PARAMETER_LOCAL"), (b"PARAMETER", b"PARAMETER_EXPRESSION"),
-    (b"PARAMETER_EXPRESSION", b"PARAMETER"), (b"_RELATIVE", b""), (b"_SURFACE_TO", b"_NODE_TO"),
+    (b"_LIST", b"_GENERAL"),
+    (b"_LIST", b"_COLUMN"),
+    (b"_LIST", b"_LIST_GENERATE"),
+    (b"_GENERAL", b"_LIST"),
+    (b"_COLUMN", b"_GENERAL"),
+    (b"_LIST", b"_ADD"),
+    (b"_SET", b"_NODE"),
+    (b"_NODE", b"_SET"),
+    (b"_ID", b""),
+    (b"_TITLE", b""),
+    (b"_LOCAL", b""),
+    (b"PARAMETER", b"PARAMETER_LOCAL"),
+    (b"PARAMETER", b"PARAMETER_EXPRESSION"),
+    (b"PARAMETER_EXPRESSION", b"PARAMETER"),
+    (b"_RELATIVE", b""),
+    (b"_SURFACE_TO", b"_NODE_TO"),
 ]
-HEADS = [b"", b"a title, with a comma", b"         7heading", b"7,heading", b"        1x", b"   *NODE", b"         0", b"        -1"]
-PATHS = [b"far", b"far/", b".", b"..", b"nowhere", b"", b"   far", b"far +\n/x", b"./far/../far", b"/", b"*", b"a" * 300]
+HEADS = [
+    b"",
+    b"a title, with a comma",
+    b"         7heading",
+    b"7,heading",
+    b"        1x",
+    b"   *NODE",
+    b"         0",
+    b"        -1",
+]
+PATHS = [
+    b"far",
+    b"far/",
+    b".",
+    b"..",
+    b"nowhere",
+    b"",
+    b"   far",
+    b"far +\n/x",
+    b"./far/../far",
+    b"/",
+    b"*",
+    b"a" * 300,
+]
 BYTES = b"\t\r\n $*,&+-.0123456789eEdDnNaA\x00\x7f\xe9\xff\"'"
 KEYWORDS = []
 
@@ -252,14 +287,21 @@ def mutate_blanks(rng, text):
 def mutate_touching(rng, text):
     """Blanks between two values dropped, or a value moved to the left of its columns."""
     lines, k = lines_of(rng, text, is_card)
-    words = [i for i in range(1, len(lines[k])) if lines[k][i - 1 : i] == b" " != lines[k][i : i + 1]]
+    words = [
+        i for i in range(1, len(lines[k])) if lines[k][i - 1 : i] == b" " != lines[k][i : i + 1]
+    ]
     if not words:
         return text
     i = rng.choice(words)
     gap = len(lines[k][:i]) - len(lines[k][:i].rstrip())
     drop = rng.randrange(1, gap + 1)
     end = i + len(lines[k][i:].split(b" ")[0])
-    lines[k] = lines[k][: i - drop] + lines[k][i:end] + b" " * rng.choice((0, drop, drop)) + lines[k][end:]
+    lines[k] = (
+        lines[k][: i - drop]
+        + lines[k][i:end]
+        + b" " * rng.choice((0, drop, drop))
+        + lines[k][end:]
+    )
     return b"\n".join(lines)
 
 
@@ -281,7 +323,9 @@ def mutate_option(rng, text):
         k = rng.choice(found)
         clause = rng.choice(CLAUSES)
         clause = clause.rjust(10) if rng.random() < 0.7 else clause.ljust(10)
-        numbers = b"".join(rng.choice((b"1", b"2", b"4", b"16", b"0", b"", b"99")).rjust(10) for _ in range(7))
+        numbers = b"".join(
+            rng.choice((b"1", b"2", b"4", b"16", b"0", b"", b"99")).rjust(10) for _ in range(7)
+        )
         lines[k:k] = [clause + numbers]
     else:
         lines[k] = rng.choice((b" ", b"*", b"")) + lines[k]
@@ -295,7 +339,18 @@ def mutate_include(rng, text):
         keyword = rng.choice((b"*INCLUDE_PATH", b"*INCLUDE_PATH_RELATIVE"))
         lines[k:k] = [keyword] + [rng.choice(PATHS) for _ in range(rng.choice((0, 1, 1, 2)))]
         return b"\n".join(lines)
-    names = (b"deck.k", b"none.k", b".", b"/", b"", b"other.k", b"a +", b"mesh.k", b"far/mesh.k", b"far/../deck.k")
+    names = (
+        b"deck.k",
+        b"none.k",
+        b".",
+        b"/",
+        b"",
+        b"other.k",
+        b"a +",
+        b"mesh.k",
+        b"far/mesh.k",
+        b"far/../deck.k",
+    )
     lines[k:k] = [b"*INCLUDE", rng.choice(names)]
     return b"\n".join(lines)
 

@@ -1,7 +1,7 @@
 """PyDyna reads every deck of input/ and its echo deck, and finds equal values in both: numbers
 that stand in the deck are those that bipact understood. Only own keywords (and two short names
-of sets, which PyDyna keeps as text) may stay unread. Every name of a keyword that PyDyna knows is
-used, skipped or refused by bipact: "unknown keyword" means a slip of the pen."""
+of sets, which PyDyna keeps as text) may stay unread. Every name of a keyword that PyDyna knows
+is used, skipped or refused by bipact: "unknown keyword" means a slip of the pen."""
 
 import glob
 import logging

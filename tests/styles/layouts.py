@@ -11,15 +11,19 @@ def members(name, count=8):
 # keyword: its cards; "*" after a card: it may be repeated; "text" alone: a line of text
 LAYOUT = {
     "TITLE": ["text"],
-    "CONTROL_TERMINATION": ["endtim=0.0 endcyc=0 dtmin=0.0 endeng=0.0 endmas=1.000E+08 nosol=0"],
+    "CONTROL_TERMINATION": [
+        "endtim=0.0 endcyc=0 dtmin=0.0 endeng=0.0 endmas=1.000E+08 nosol=0"
+    ],
     "CONTROL_IMPLICIT_GENERAL": [
         "imflag=0 dt0=0.0 imform=2 nsbs=1 igs=2 cnstn=0 form=0 zero_v=0"
     ],
     "CONTROL_IMPLICIT_DYNAMICS": [
-        "imass=0 gamma=0.0 beta=0.0 tdybir=0.0 tdydth=1.00E+28 tdybur=1.00E+28 irate=0 alpha=0.0"
+        "imass=0 gamma=0.0 beta=0.0 tdybir=0.0 tdydth=1.00E+28 tdybur=1.00E+28 irate=0 "
+        "alpha=0.0"
     ],
     "CONTROL_IMPLICIT_SOLUTION": [
-        "nsolvr=1 ilimit=11 maxref=15 dctol=0.001 ectol=0.01 rctol=1.000E+10 lstol=0.9 abstol=1.00E-10",
+        "nsolvr=1 ilimit=11 maxref=15 dctol=0.001 ectol=0.01 rctol=1.000E+10 lstol=0.9 "
+        "abstol=1.00E-10",
         "dnorm=2 diverg=1 istif=1 nlprint=0 nlnorm=2.0 d3itctl=0 cpchk=0",
         "arcctl=0 arcdir=0 arclen=0.0 arcmth=1 arcdmp=2 arcpsi=0.0 arcalf=0.0 arctim=0.0",
         "lsmtd=4 lsdir=2 irad=0.0 srad=0.0 awgt=0.0 sred=0.0",
@@ -117,9 +121,7 @@ LAYOUT = {
         "id=0 styp=1 omega=0.0 vx=0.0 vy=0.0 vz=0.0 ivatn=0 icid=0",
         "xc=0.0 yc=0.0 zc=0.0 nx=0.0 ny=0.0 nz=0.0 phase=0 irigid=0",
     ],
-    "INITIAL_VELOCITY_NODE": [
-        "nid=0 vx=0.0 vy=0.0 vz=0.0 vxr=0.0 vyr=0.0 vzr=0.0 icid=0*"
-    ],
+    "INITIAL_VELOCITY_NODE": ["nid=0 vx=0.0 vy=0.0 vz=0.0 vxr=0.0 vyr=0.0 vzr=0.0 icid=0*"],
     "INITIAL_VELOCITY": [
         "nsid=0 nsidex=0 boxid=0 irigid=0 icid=0",
         "vx=0.0 vy=0.0 vz=0.0 vxr=0.0 vyr=0.0 vzr=0.0",
@@ -156,7 +158,9 @@ LAYOUT = {
         "cmpflg=0 ieverp=0 beamip=0 dcomp=1 shge=1 stssz=1 n3thdt=2 ialemat=1",
     ],
     "DATABASE_NODOUT": ["dt=0.0 binary=0 lcur=0 ioopt=1 option1=0.0 option2=0"],
-    "DATABASE_ELOUT": ["dt=0.0 binary=0 lcur=0 ioopt=1 option1=0 option2=0 option3=0 option4=0"],
+    "DATABASE_ELOUT": [
+        "dt=0.0 binary=0 lcur=0 ioopt=1 option1=0 option2=0 option3=0 option4=0"
+    ],
     "DATABASE_HISTORY_NODE": [members("id") + "*"],
     "DATABASE_HISTORY_NODE_SET": [members("id") + "*"],
     "DATABASE_HISTORY_SHELL": [members("id") + "*"],

@@ -1,7 +1,7 @@
-"""Sixty small decks in the handwriting of several preprocessors and of people, with all keywords
-that public decks of the format use most. What is said of each stands in expected.txt, to the
-letter: notes and warnings of those that run, messages of those that are refused. `styles.py
---write` makes that file anew (read the difference!)."""
+"""Sixty small decks in the handwriting of several preprocessors and of people, with all
+keywords that public decks of the format use most. What is said of each stands in expected.txt,
+to the letter: notes and warnings of those that run, messages of those that are refused.
+`styles.py --write` makes that file anew (read the difference!)."""
 
 import os
 import re
@@ -44,7 +44,9 @@ def judge(name, kind, code, said, folder):
     if kind in ("same", "runs"):
         check(code == 0, "%s: exit code %d: %s" % (name, code, said))
         if kind == "same" and code == 0:
-            check(plain.rows_of(folder) == plain.run_plain(plain.deck()), name + ": other tables")
+            check(
+                plain.rows_of(folder) == plain.run_plain(plain.deck()), name + ": other tables"
+            )
         return
     check(code == 2, "%s: exit code %d: %s" % (name, code, said))
     check(not os.path.exists(folder), name + ": files after a refusal")
@@ -64,7 +66,9 @@ def main():
     used = set()
     for _, _, text, files in DECKS:
         for part in [text] + list(files.values()):
-            used.update(re.sub("_(TITLE|ID)$", "", n.upper()) for n in re.findall(r"(?m)^\*(\w+)", part))
+            used.update(
+                re.sub("_(TITLE|ID)$", "", n.upper()) for n in re.findall(r"(?m)^\*(\w+)", part)
+            )
     missing = sorted(set(FREQUENT) - used - {"TITLE", "KEYWORD_ID"})
     check(not missing, "keywords that no deck has: " + " ".join(missing))
     check(len(DECKS) >= 60, "%d decks" % len(DECKS))

@@ -1,5 +1,6 @@
 """Decks in the handwriting of several programs and of people. A deck is a list of blocks
-(keyword, cards, title); a card is a line of text, a dictionary of fields, or a list of values."""
+(keyword, cards, title); a card is a line of text, a dictionary of fields, or a list of values.
+"""
 
 from layouts import LAYOUT, fields_of
 
@@ -90,25 +91,40 @@ class Writer:
 class Filled(Writer):
     """All fields with their defaults, their names above them, titles on everything."""
 
-    header = ["$# a deck as a program writes it that fills every field", "$# one block a keyword"]
+    header = [
+        "$# a deck as a program writes it that fills every field",
+        "$# one block a keyword",
+    ]
     fills_defaults = True
     names_fields = "$#"
     left = ("solver",)
 
     def head(self, number, keyword, title):
         if keyword.startswith(TITLED):
-            return keyword + "_TITLE", ["$# title", title or "%s %d" % (keyword.lower(), number)]
+            return keyword + "_TITLE", [
+                "$# title",
+                title or "%s %d" % (keyword.lower(), number),
+            ]
         if keyword == "TITLE":
             return keyword, ["$# title"]
         if keyword.startswith(NUMBERED) and title is not None:
-            return keyword + "_ID", ["$#      id".ljust(10) + "heading".rjust(70), str(number).rjust(10) + title]
+            return keyword + "_ID", [
+                "$#      id".ljust(10) + "heading".rjust(70),
+                str(number).rjust(10) + title,
+            ]
         return keyword, []
 
 
 class Banners(Writer):
     """Comments between blocks, only what is said, headings and ids, parameters."""
 
-    header = ["$", "$ ======================", "$ a model of two blocks", "$ ======================", "$"]
+    header = [
+        "$",
+        "$ ======================",
+        "$ a model of two blocks",
+        "$ ======================",
+        "$",
+    ]
 
     def before(self, keyword, cards, title):
         return ["$", "$ " + (title or keyword.replace("_", " ").lower()), "$ " + "-" * 20]
@@ -117,12 +133,18 @@ class Banners(Writer):
 class Components(Writer):
     """Names and colours of components in comments, cards without trailing zeros."""
 
-    header = ["$$ mesh and cards of a graphical preprocessor", "$$ --------------------------------"]
+    header = [
+        "$$ mesh and cards of a graphical preprocessor",
+        "$$ --------------------------------",
+    ]
 
     def before(self, keyword, cards, title):
         if keyword == "PART":
-            return ["$HMNAME COMPS       %dcomponent" % (k + 1) for k in range(len(cards) // 2)] + [
-                "$HWCOLOR COMPS       %d       %d" % (k + 1, 3 + k) for k in range(len(cards) // 2)
+            return [
+                "$HMNAME COMPS       %dcomponent" % (k + 1) for k in range(len(cards) // 2)
+            ] + [
+                "$HWCOLOR COMPS       %d       %d" % (k + 1, 3 + k)
+                for k in range(len(cards) // 2)
             ]
         if keyword.startswith("SET_"):
             return ["$HMSET", "$HMTYPE", "$HMNAME SETS        1" + (title or "set")]

@@ -13,6 +13,21 @@ def fixed(*values, width=10):
     return "".join(("" if v is None else str(v)).rjust(width) for v in values).rstrip()
 
 
+def long(*values):
+    """Values in columns of the long form."""
+    return fixed(*values, width=20)
+
+
+def cards(keyword, *lines):
+    """A keyword with its cards."""
+    return "\n".join(["*" + keyword] + list(lines))
+
+
+def pair(*texts):
+    """Pairs of *PARAMETER: names and values in turn."""
+    return "".join(n.ljust(10) + str(v).rjust(10) for n, v in zip(texts[::2], texts[1::2]))
+
+
 def node(nid, x, y, *more):
     """A card of *NODE; more: z, TC, RC."""
     card = fixed(nid, width=8) + fixed(x, y, *more[:1], width=16)
@@ -59,12 +74,15 @@ SECTIONS = {
     "left set": "*SET_PART_LIST\n" + fixed(11) + "\n" + fixed(1),
     "right set": "*SET_PART_LIST\n" + fixed(12) + "\n" + fixed(2),
     "support": "*BOUNDARY_SPC_SET\n" + fixed(1, None, 1, 1),
-    "curve": "*DEFINE_CURVE\n" + fixed(1) + "\n" + fixed(0.0, 1.0, width=20)
-    + "\n" + fixed(1.0, 3.0, width=20),
+    "curve": "*DEFINE_CURVE\n"
+    + fixed(1)
+    + "\n"
+    + fixed(0.0, 1.0, width=20)
+    + "\n"
+    + fixed(1.0, 3.0, width=20),
     "load": "*LOAD_BODY_Y\n" + fixed(1, 5.0),
     "velocity": "*INITIAL_VELOCITY_GENERATION\n" + fixed(1, 2, None, 1.0, -0.25) + "\n",
-    "contact": "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n"
-    + fixed(11, 12, None, None, 0.3),
+    "contact": "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n" + fixed(11, 12, None, None, 0.3),
     "tables": "\n".join(
         table(n) for n in "GLSTAT MATSUM NODOUT ELOUT RCFORC SLEOUT SPCFORC NCFORC".split()
     ),
@@ -72,6 +90,19 @@ SECTIONS = {
     "elements of elout": "*DATABASE_HISTORY_SHELL\n" + fixed(1, 2, 3, 4),
     "more": "",
 }
+
+
+MESH = SECTIONS["nodes"] + "\n" + SECTIONS["elements"]
+
+
+def held_nodes(tc, *nodes, rc=None):
+    """The nodes with TC (and RC) for some of them."""
+    lines = []
+    for line in SECTIONS["nodes"].split("\n"):
+        if line[:1] == " " and int(line[:8]) in nodes:
+            line = line.ljust(56) + fixed(tc, rc, width=8)
+        lines.append(line)
+    return "\n".join(lines)
 
 
 def deck(sections=None, **changes):

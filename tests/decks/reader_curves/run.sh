@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# curves in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" curves
+# curves in preprocessors_motion.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_motion.py" curves

@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# includes in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" includes
+# includes in preprocessors_files.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_files.py" includes

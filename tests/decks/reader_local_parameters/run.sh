@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# local_parameters in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" local_parameters
+# local_parameters in preprocessors_parameters.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_parameters.py" local_parameters

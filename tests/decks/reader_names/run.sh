@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# names in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" names
+# names in preprocessors_names.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_names.py" names

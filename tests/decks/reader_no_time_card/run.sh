@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# no_time_card in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" no_time_card
+# no_time_card in preprocessors_motion.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_motion.py" no_time_card

@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# parameters in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" parameters
+# parameters in preprocessors_parameters.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_parameters.py" parameters

@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# sets in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" sets
+# sets in preprocessors_sets.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_sets.py" sets

@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# supported in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" supported
+# supported in preprocessors_motion.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_motion.py" supported

@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# titles in preprocessors.py says what must hold.
-exec "$PYTHON" "$ROOT/tests/decks/preprocessors.py" titles
+# titles in preprocessors_names.py says what must hold.
+exec "$PYTHON" "$ROOT/tests/decks/preprocessors_names.py" titles
