@@ -3,9 +3,9 @@
 !> Nothing is kept; values are converted again when they are asked for.
 module deck_check
   use base_kinds, only: wp
-  use base_strings, only: to_text, upper
+  use base_strings, only: to_text, upper, position_of
   use deck_data, only: deck_t, field_span, slice_field, parameter_of, convert
-  use deck_form, only: read_head
+  use deck_heads, only: read_head
   use deck_problems, only: add_note, full
   use deck_table, only: field_t, card_t, field_tuning, field_fixed
   implicit none

@@ -55,7 +55,6 @@ module deck_data
     type(parameter_t), allocatable :: parameter(:)
     type(line_t), allocatable :: folder(:)   !< where else included files are looked for
     type(problems_t) :: problems
-    character(:), allocatable :: chosen      !< cards for the echo: what the deck left open
   contains
     procedure :: real => deck_real
     procedure :: integer => deck_integer

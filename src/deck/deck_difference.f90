@@ -8,7 +8,7 @@ module deck_difference
   use base_sort, only: sort_order
   use base_strings, only: to_text
   use deck_data, only: deck_t, convert
-  use deck_number, only: scan_integer
+  use deck_heads, only: head_number
   use deck_problems, only: line_t
   use deck_table, only: field_t, keyword_used, field_tuning, field_fixed, field_ignored
   implicit none
@@ -220,22 +220,6 @@ contains
           to_text(number(1))//' in the run so far, '//to_text(number(2))//' in this deck')
     end if
   end subroutine compare_heads
-
-  pure integer function head_number(deck, record, number)
-    type(deck_t), intent(in) :: deck
-    integer, intent(in) :: record, number
-    integer :: id
-    logical :: ok
-    head_number = number
-    if (deck%record(record)%card /= 0) return
-    associate (r => deck%record(record))
-      associate (line => deck%file(deck%block(r%block)%file)%text(r%first:r%last))
-        if (len_trim(line(1:min(10, len(line)))) == 0) return
-        call scan_integer(trim(adjustl(line(1:min(10, len(line))))), id, ok)
-      end associate
-    end associate
-    if (ok) head_number = id
-  end function head_number
 
   !> Card by card. A card that one side lacks is as a blank one, unless it is one of a list.
   subroutine compare_sets(old, a_first, a_last, new, b_first, b_last, found)

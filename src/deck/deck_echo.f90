@@ -44,7 +44,6 @@ contains
         end do
       end associate
     end do
-    if (allocated(deck%chosen)) call put_line(lines, deck%chosen)
     call put_line(lines, '*END')
     call write_out(lines)
   end subroutine write_echo

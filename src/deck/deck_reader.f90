@@ -17,7 +17,7 @@ module deck_reader
   private
   integer, parameter :: include_depth = 16
   integer, parameter :: include_limit = 1000
-  public :: read_deck, read_deck_text
+  public :: read_deck, read_deck_text, read_more
 
 contains
 
@@ -53,10 +53,25 @@ contains
     call read_file(deck, 1, 1, none, long, ended)
   end subroutine read_deck_text
 
+  !> Reads cards that the deck lacks as if they stood at its end: what it leaves open is chosen
+  !> so, and the echo has it.
+  subroutine read_more(deck, text)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: text
+    type(override_t) :: none(0)
+    logical :: ended, long
+    deck%files = deck%files + 1
+    deck%file(deck%files)%path = deck%file(1)%path
+    deck%file(deck%files)%text = text
+    long = .false.
+    call read_file(deck, deck%files, 1, none, long, ended)
+  end subroutine read_more
+
   !> Room for the first file, blocks, cards and parameters.
   subroutine start_deck(deck)
     type(deck_t), intent(inout) :: deck
-    allocate (deck%file(include_limit), deck%block(64), deck%record(1024), deck%parameter(16))
+    allocate (deck%file(include_limit + 1), deck%block(64), deck%record(1024))
+    allocate (deck%parameter(16))
     deck%files = 1
   end subroutine start_deck
 

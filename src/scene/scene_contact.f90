@@ -4,7 +4,7 @@ module scene_contact
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use deck_form, only: read_head
+  use deck_heads, only: head_number
   use deck_problems, only: add_note, add_warning
   use model_data, only: model_t, contact_card_t, wall_t, side_part_set, side_node_set, &
       side_part, side_segment_set, side_all_parts
@@ -78,7 +78,7 @@ contains
     type(contact_card_t), intent(inout) :: card
     integer :: second
     card%record = record
-    card%id = head_number(deck, record, number)
+    card%id = id_before(deck, record, number)
     if (index(deck%block(deck%record(record)%block)%written, '_NODE_TO_') > 0) &
         card%contactor = 1
     card%is_self = index(deck%block(deck%record(record)%block)%written, 'SINGLE_SURFACE') > 0
@@ -93,21 +93,13 @@ contains
   end subroutine read_card
 
   !> The id on the card of _ID before a record; the number in the deck where there is none.
-  integer function head_number(deck, record, number)
+  integer function id_before(deck, record, number)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: record, number
-    integer :: id
-    logical :: ok
-    head_number = number
-    if (record == deck%block(deck%record(record)%block)%first) return
-    associate (r => deck%record(record - 1))
-      if (r%card /= 0) return
-      associate (line => deck%file(deck%block(r%block)%file)%text(r%first:r%last))
-        call read_head(line, deck%block(r%block)%long, id, ok)
-        if (ok .and. id > 0) head_number = id
-      end associate
-    end associate
-  end function head_number
+    id_before = number
+    if (record > deck%block(deck%record(record)%block)%first) &
+        id_before = head_number(deck, record - 1, number)
+  end function id_before
 
   !> The *BIPACT_PAIR card of each contact, 0 = none.
   subroutine read_pairs(deck, model, maps, pair)
@@ -215,7 +207,7 @@ contains
     do k = 1, size(record)
       associate (wall => model%wall(k), r => record(k))
         wall%record = r
-        wall%id = head_number(deck, r, k)
+        wall%id = id_before(deck, r, k)
         wall%birth = deck%real(r, 'BIRTH')
         wall%death = deck%real(r, 'DEATH')
         if (deck%integer(r, 'NSID') > 0) wall%node_set = find_or_complain(deck, maps%node_set, &

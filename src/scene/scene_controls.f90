@@ -5,6 +5,7 @@ module scene_controls
   use cone_types, only: cone_options_t, find_solver, local_solver
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_problem, add_note
+  use deck_reader, only: read_more
   use deck_schemes, only: scheme_traits_t, traits_of
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t, controls_t, count_steps
@@ -98,11 +99,8 @@ contains
     type(controls_t), intent(inout) :: controls
     type(scheme_traits_t) :: traits
     integer :: r
+    if (deck%next('BIPACT_TIME', 1, 0) == 0) call choose_scheme(deck)
     r = deck%next('BIPACT_TIME', 1, 0)
-    if (r == 0) then
-      call choose_scheme(deck, controls)
-      return
-    end if
     controls%scheme = deck%word(r, 'SCHEME')
     traits = traits_of(controls%scheme)
     if (deck%is_given(r, 'THETA')) controls%theta = deck%real(r, 'THETA')
@@ -110,6 +108,10 @@ contains
     if (deck%is_given(r, 'XI')) controls%xi = deck%real(r, 'XI')
     call refuse_field(deck, r, controls%scheme, 'THETA', traits%takes_theta)
     call refuse_field(deck, r, controls%scheme, 'XI', traits%takes_theta)
+    if (traits%takes_gamma) return
+    if (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) > zero) &
+        call add_note(deck%problems, 'GAMMA and BETA have no effect: they are none of '// &
+        'scheme '//trim(controls%scheme))
   end subroutine read_scheme
 
   !> A field that the scheme does not use must be blank.
@@ -122,16 +124,14 @@ contains
         'scheme '//trim(scheme)//' has no '//name//': leave it blank')
   end subroutine refuse_field
 
-  subroutine choose_scheme(deck, controls)
+  subroutine choose_scheme(deck)
     type(deck_t), intent(inout) :: deck
-    type(controls_t), intent(inout) :: controls
     logical :: newmark
     integer :: r
     r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
     newmark = .not. has_contact(deck)
     if (r > 0) newmark = newmark .or. deck%is_given(r, 'GAMMA') .or. deck%is_given(r, 'BETA')
-    controls%scheme = trim(merge('NEWMARK', 'THETA  ', newmark))
-    deck%chosen = '*BIPACT_TIME'//new_line('a')//'   '//controls%scheme
+    call read_more(deck, '*BIPACT_TIME'//new_line('a')//merge('NEWMARK', 'THETA  ', newmark))
     if (.not. has_contact(deck)) return
     if (newmark) then
       call add_warning(deck%problems, 'no *BIPACT_TIME, but GAMMA or BETA: the scheme is '// &

@@ -2,11 +2,13 @@
 preprocessors.py)."""
 
 import os
+import shutil
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
-from plain import SECTIONS, deck, fixed, long, cards, pair, held_nodes, refused, same
-from scenes import finish
+import scenes
+from plain import SECTIONS, cards, deck, fixed, held_nodes, long, pair, refused, rows_of, same
+from scenes import check, finish, run_text
 
 
 def curve_deck(*lines, load=5.0):
@@ -305,6 +307,24 @@ def supported():
         refused("velocity: " + name, deck(**changes), words, problems=1)
 
 
+def goes_on():
+    """A run without *BIPACT_TIME goes on from its restart file to a later end, and to the same
+    end with the card that says what was chosen."""
+    restarts = cards("BIPACT_RESTART", fixed(50))
+    late = SECTIONS["end"].replace(" 0.01", "0.012")
+    folder, code, errors = run_text("early", deck(time="", more=restarts), "--quiet")
+    check(code == 0, "a run with restart files: " + errors)
+    for name, changes in (("no card", dict(time="")), ("the card", {})):
+        text = deck(end=late, more=restarts, **changes)
+        whole, code, errors = run_text("whole", text, "--quiet")
+        check(code == 0, name + ": " + errors)
+        shutil.rmtree(os.path.join(scenes.TMP, "later"), ignore_errors=True)
+        shutil.copytree(folder, os.path.join(scenes.TMP, "later"))
+        later, code, errors = run_text("later", text, "--quiet", "--restart", "latest")
+        check(code == 0, "%s, from a restart file: %s" % (name, errors))
+        check(rows_of(later) == rows_of(whole), name + ": other tables by a restart")
+
+
 def no_time_card():
     """Without *BIPACT_TIME: THETA where there is contact and neither GAMMA nor BETA, else
     NEWMARK."""
@@ -380,6 +400,13 @@ def no_time_card():
         ),
     ):
         same("no time card: " + name, deck(**changes), plain_deck, notes=notes)
+    same(
+        "gamma and beta of another scheme",
+        deck(dynamics=dynamics(0.6, 0.38)),
+        notes=["GAMMA and BETA have no effect: they are none of scheme THETA"],
+    )
+    same("gamma and beta by default", deck(dynamics=dynamics(0.5, 0.25)), notes=[])
+    goes_on()
     refused(
         "no time card: unstable",
         deck(time="", dynamics=dynamics(0.5, 0.1)),
