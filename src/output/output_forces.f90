@@ -6,7 +6,6 @@ module output_forces
   use base_status, only: status_t
   use contact_pairing, only: pairing_t, no_gap
   use contact_types, only: contact_t
-  use contact_work, only: start_row
   use model_data, only: model_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers
@@ -76,7 +75,7 @@ contains
   subroutine write_sleout(file, writer, contact, time, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
-    type(contact_t), intent(inout) :: contact
+    type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
     real(wp) :: works(2), penetration
@@ -99,7 +98,6 @@ contains
       end associate
       call end_row(file)
     end do
-    call start_row(contact)
   end subroutine write_sleout
 
   !> Works [F L] (normal, friction) and largest overlap [L] of pairing p; of all: p = 0.

@@ -8,6 +8,7 @@ module run_tables
   use output_rows, only: write_glstat, write_matsum, write_nodout, write_elout, write_timing
   use output_table, only: row_is_due, rows_done
   use contact_area, only: find_all_areas
+  use contact_work, only: start_row
   use run_data, only: run_t
   implicit none
   private
@@ -51,6 +52,7 @@ contains
         call write_rwforc(file, writer, run%contact, time, status)
       case (table_sleout)
         call write_sleout(file, writer, run%contact, time, status)
+        call start_row(run%contact)
       case (table_spcforc)
         call write_spcforc(file, writer, model, run%system%fixed, run%mean_reaction, &
             time, status)
