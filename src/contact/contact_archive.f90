@@ -112,12 +112,13 @@ contains
   subroutine exchange_tally(archive, tally)
     type(archive_t), intent(inout) :: archive
     type(tally_t), intent(inout) :: tally
-    integer :: counts(16 + row_kinds)
+    integer :: counts(18 + row_kinds)
     real(wp) :: overlap(2)
     counts = [tally%searches, tally%w_builds, tally%interface_changes, tally%solves, &
         tally%sweeps, tally%sweeps_since_row, tally%solves_since_row, tally%wedged, &
         tally%wedged_node, tally%allowances, tally%late_rows, tally%new_frames, tally%repeats, &
-        tally%redone, tally%overlap_node, tally%overlap_step, tally%rows]
+        tally%redone, tally%overlap_node, tally%overlap_step, tally%overlaps, &
+        tally%misses, tally%rows]
     call archive%exchange('tally.counts', counts)
     tally%searches = counts(1)
     tally%w_builds = counts(2)
@@ -135,7 +136,9 @@ contains
     tally%redone = counts(14)
     tally%overlap_node = counts(15)
     tally%overlap_step = counts(16)
-    tally%rows = counts(17:)
+    tally%overlaps = counts(17)
+    tally%misses = counts(18)
+    tally%rows = counts(19:)
     overlap = [tally%overlap, tally%overlap_share]
     call archive%exchange('tally.overlap', overlap)
     tally%overlap = overlap(1)

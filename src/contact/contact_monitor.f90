@@ -119,6 +119,7 @@ contains
       pairing%sums%penetration = max(pairing%sums%penetration, o%depth)
       tally%overlap = max(tally%overlap, o%depth)
       if (o%share > warned .and. tally%overlap_step < 0) tally%overlap_step = cycle
+      if (o%share > warned) tally%overlaps = tally%overlaps + 1
       if (o%share > tally%overlap_share) tally%overlap_node = o%node
       tally%overlap_share = max(tally%overlap_share, o%share)
       if (o%share > passed) call fail(status, status_numerical, place_of(model, pairing)// &

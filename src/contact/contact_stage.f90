@@ -14,7 +14,7 @@ module contact_stage
   use contact_monitor, only: check_listed
   use contact_purse, only: start_purses, open_purses, set_offsets, purse_is_short
   use contact_rows, only: rows_t, relative_displacement, add_row_force
-  use contact_types, only: contact_t
+  use contact_types, only: contact_t, tally_t
   use model_data, only: model_t
   implicit none
   private
@@ -179,8 +179,7 @@ contains
         certificate, status)
     if (certificate%worst > 0) call add_place(status, 'node '// &
         to_text(model%node_id(contact%rows%key(3, contact%row_of(certificate%worst)))))
-    call keep_worst(certificate, contact%tally%worst)
-    call keep_worst(certificate, contact%tally%worst_since_row)
+    call keep_certificate(certificate, contact%tally)
     contact%tally%sweeps = contact%tally%sweeps + certificate%sweeps
     contact%tally%sweeps_since_row = contact%tally%sweeps_since_row + certificate%sweeps
     do k = 1, contact%n
@@ -301,8 +300,7 @@ contains
     end associate
     call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
-    call keep_worst(certificate, contact%tally%worst)
-    call keep_worst(certificate, contact%tally%worst_since_row)
+    call keep_certificate(certificate, contact%tally)
   end subroutine settle_contact
 
   subroutine fail_penetration(model, node, depth, is_rigid, status)
@@ -321,6 +319,15 @@ contains
           hint='lower TOL on *BIPACT_CONTACT')
     end if
   end subroutine fail_penetration
+
+  !> The certificate of a solve into the counts.
+  pure subroutine keep_certificate(certificate, tally)
+    type(certificate_t), intent(in) :: certificate
+    type(tally_t), intent(inout) :: tally
+    call keep_worst(certificate, tally%worst)
+    call keep_worst(certificate, tally%worst_since_row)
+    if (.not. certificate%met) tally%misses = tally%misses + 1
+  end subroutine keep_certificate
 
   pure subroutine keep_worst(new, worst)
     type(certificate_t), intent(in) :: new

@@ -23,6 +23,8 @@ module contact_types
     type(certificate_t) :: worst, worst_since_row
     real(wp) :: overlap = zero, overlap_share = zero   !< largest [L], / shorter edge
     integer :: overlap_node = 0, overlap_step = -1     !< where and when beyond the limit
+    integer :: overlaps = 0                       !< how often beyond it
+    integer :: misses = 0                         !< solves that missed the certificate
     integer :: wedged = 0, wedged_node = 0        !< contacts that may have several answers
   end type tally_t
 

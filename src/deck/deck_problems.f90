@@ -2,6 +2,7 @@
 !> What is wrong with a deck, collected so that one pass shows up to twenty problems, and what
 !> was accepted with a word (notes, warnings).
 module deck_problems
+  use base_messages, only: messages_t, add_message
   use base_strings, only: to_text
   implicit none
   private
@@ -15,10 +16,7 @@ module deck_problems
     integer :: count = 0
     type(line_t) :: problem(problem_limit)
     type(line_t) :: kind(problem_limit)   !< place and kind of those that one line may repeat
-    integer :: note_count = 0
-    type(line_t), allocatable :: note(:)
-    integer :: warning_count = 0
-    type(line_t), allocatable :: warning(:)
+    type(messages_t) :: notes, warnings
   end type problems_t
 
   public :: add_problem, add_note, add_warning, is_told, render, full
@@ -75,34 +73,16 @@ contains
   subroutine add_note(problems, text)
     type(problems_t), intent(inout) :: problems
     character(*), intent(in) :: text
-    call append(problems%note, problems%note_count, text)
+    call add_message(problems%notes, '', text)
   end subroutine add_note
 
-  !> Adds a warning; the same warning is kept once.
-  subroutine add_warning(problems, text)
+  !> Adds a warning of a kind, one word by which the summary counts; the same warning is kept
+  !> once.
+  subroutine add_warning(problems, kind, text)
     type(problems_t), intent(inout) :: problems
-    character(*), intent(in) :: text
-    call append(problems%warning, problems%warning_count, text)
+    character(*), intent(in) :: kind, text
+    call add_message(problems%warnings, kind, text)
   end subroutine add_warning
-
-  subroutine append(list, count, text)
-    type(line_t), allocatable, intent(inout) :: list(:)
-    integer, intent(inout) :: count
-    character(*), intent(in) :: text
-    type(line_t), allocatable :: longer(:)
-    integer :: k
-    do k = 1, count
-      if (list(k)%text == text) return
-    end do
-    if (.not. allocated(list)) allocate (list(8))
-    if (count == size(list)) then
-      allocate (longer(2*count))
-      longer(1:count) = list
-      call move_alloc(longer, list)
-    end if
-    count = count + 1
-    list(count)%text = text
-  end subroutine append
 
   !> One message: place and columns, what, the card, carets under the columns, the hint. Control
   !> characters of the card are shown as "?", and only its first 200 columns.

@@ -3,13 +3,13 @@
 module output_tables
   use base_archive, only: archive_t
   use base_format, only: real_writer_t, make_real_writer
+  use base_messages, only: messages_t, add_message
   use base_kinds, only: wp, zero, i8
   use base_status, only: status_t, failed
   use base_strings, only: upper
   use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
       table_elout, table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, &
       table_timing
-  use deck_problems, only: problems_t, add_note
   use model_data, only: model_t
   use output_table, only: table_file_t, open_table, row_is_due, next_due, add_number, &
       close_table, reopen_table, check_rows, write_out
@@ -78,11 +78,11 @@ contains
   !> Where tables of a run that goes on have other intervals than before, their next rows are
   !> due as if they had had them from the start. told [T]: up to where rows were written,
   !> negative for none; h: length of a step. Tables that begin or end are noted.
-  subroutine retime_tables(tables, model, told, h, problems)
+  subroutine retime_tables(tables, model, told, h, notes)
     type(tables_t), intent(inout) :: tables
     type(model_t), intent(in) :: model
     real(wp), intent(in) :: told, h
-    type(problems_t), intent(inout) :: problems
+    type(messages_t), intent(inout) :: notes
     character(:), allocatable :: name
     integer :: k
     do k = 1, table_count
@@ -90,9 +90,9 @@ contains
         if (.not. abs(interval - file%interval) > zero) cycle
         name = 'restart: table '//upper(trim(table_names(k)))
         if (.not. interval > zero) then
-          call add_note(problems, name//' ends here: the deck does not ask for it any more')
+          call add_message(notes, '', name//' ends here: the deck does not ask for it any more')
         else if (file%written == 0_i8) then
-          call add_note(problems, name//' begins here: the run so far had none')
+          call add_message(notes, '', name//' begins here: the run so far had none')
         end if
         file%next = zero
         if (told >= zero) file%next = next_due(interval, told, h)

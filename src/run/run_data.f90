@@ -4,6 +4,7 @@
 module run_data
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, i8
+  use base_messages, only: messages_t
   use base_timers, only: timers_t
   use contact_types, only: contact_t
   use cone_types, only: cone_options_t
@@ -19,6 +20,9 @@ module run_data
   use time_ledger, only: ledger_t
   implicit none
   private
+
+  !> Kinds of warnings that a run can give (run_warnings names them).
+  integer, parameter, public :: warning_kinds = 5
 
   !> What this scene needs, each with its reason; what is off is not allocated and not called.
   type, public :: feature_t
@@ -75,6 +79,7 @@ module run_data
     real(wp) :: largest_motion = zero  !< of a node in the step just done [L]
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
+    integer :: rotations = 0           !< looks that found one beyond ROTWARN
     integer :: checked = 0             !< step of the last check of overlap
     logical :: broken = .false.        !< NaN or infinity: the state is not written
     class(storage_t), allocatable :: storage  !< what can keep fields and restarts
@@ -87,6 +92,9 @@ module run_data
     integer :: restart_files = 0
     character(:), allocatable :: restarted    !< from where, empty: from the start
     character(:), allocatable :: folder
+    !> The one record of what there is to say: of the deck first, then of the run.
+    type(messages_t) :: notes, warnings
+    integer :: first_warned(warning_kinds) = -1   !< step in which each kind was first seen
     logical :: quiet = .false.
     integer :: log_unit = -1
   end type run_t

@@ -4,12 +4,12 @@
 module run_frames
   use base_archive, only: archive_t, archive_save, archive_restore
   use base_files, only: file_exists, file_size, list_files, remove_file, path_length
+  use base_messages, only: add_message
   use base_kinds, only: wp, zero, one, i8
   use base_status, only: status_t, fail, failed, status_file
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
   use contact_area, only: find_all_areas
-  use deck_problems, only: add_note
   use deck_names, only: field_names
   use output_fields, only: fields_t, make_fields, make_mesh, fill_fields, frame_is_due, &
       next_frame
@@ -151,7 +151,7 @@ contains
       end if
       if (.not. are_kept) fields%segment = next_segment(run%folder)
       if (.not. any(abs(content - old_content) > zero)) return
-      call add_note(run%deck%problems, 'restart: frames hold other fields from here on; '// &
+      call add_message(run%notes, '', 'restart: frames hold other fields from here on; '// &
           'fields.xdmf shows these, the others stay in the field files before '// &
           segment_name(fields%segment))
       fields%frames = 0

@@ -25,6 +25,7 @@ module run_loop
   use run_restart, only: keep_restart, how_to_go_on
   use run_setup, only: factor_matrix
   use run_tables, only: write_rows
+  use run_warnings, only: notice_warnings
   use time_ledger, only: evaluate_ledger, largest_work
   implicit none
   private
@@ -51,6 +52,7 @@ contains
       stopped = stopped .and. run%state%cycle < steps
       if (run%plan%restarts) call keep_restart(run, stopped, status)
       call tell(run, run%state%cycle == steps .or. failed(status), status)
+      call notice_warnings(run, progress)
       if (stopped) call fail(status, status_stopped, 'stopped by a signal', &
           hint=how_to_go_on(run))
       call show_progress(progress, run%quiet, run%state%cycle, steps, run%state%time)
@@ -418,6 +420,8 @@ contains
     call run%timers%enter(phase_energy)
     call evaluate_ledger(run%model, run%system, run%state, run%ledger)
     call largest_rotation(run%system, run%model%x, run%state%u, angle, element)
+    if (angle*180.0_wp/acos(-one) > run%model%controls%rotation_warning) &
+        run%rotations = run%rotations + 1
     if (angle > run%rotation) then
       run%rotation = angle
       run%rotation_element = element

@@ -28,6 +28,7 @@ module run_program
   use run_resume, only: resume
   use run_setup, only: read_scene, set_up
   use run_summary, only: totals_t, find_totals, ending_of, write_run_summary, remove_run_summary
+  use run_warnings, only: show_warnings, write_kinds
   implicit none
   private
   public :: run_deck
@@ -105,6 +106,7 @@ contains
       write (error_unit, '(a)') run%deck%problems%problem(k)%text
     end do
     if (failed(status)) return
+    call show_warnings(run%warnings)
     if (arguments%plan .or. arguments%check) then
       call tell_scene(arguments, run)
       return
@@ -117,19 +119,18 @@ contains
     call compute(arguments, run, status)
   end subroutine work
 
-  !> What the deck says, without running it.
+  !> What the deck says, without running it; warnings have gone to the screen.
   subroutine tell_scene(arguments, run)
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(in) :: run
     integer :: k
+    if (run%quiet) return
     if (arguments%check) write (output_unit, '(a)') arguments%deck//': the deck is valid'
-    do k = 1, run%deck%problems%note_count
-      write (output_unit, '(a)') 'NOTE '//run%deck%problems%note(k)%text
-    end do
-    do k = 1, run%deck%problems%warning_count
-      write (output_unit, '(a)') 'WARNING '//run%deck%problems%warning(k)%text
+    do k = 1, run%notes%n
+      write (output_unit, '(a)') 'NOTE '//run%notes%item(k)%text
     end do
     call write_plan(run, output_unit)
+    call write_kinds(run, output_unit)
   end subroutine tell_scene
 
   !> A look at the beginning of the deck, which saves reading it twice: does it name fields or

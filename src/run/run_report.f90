@@ -11,10 +11,10 @@ module run_report
   use contact_rows, only: row_edge, row_vertex, row_second, row_wall
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
-  use deck_problems, only: add_note, add_warning
   use run_data, only: run_t
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
+  use run_warnings, only: collect_messages, show_warnings, write_messages, write_kinds
   implicit none
   private
   public :: open_log, close_log, write_plan
@@ -74,21 +74,16 @@ contains
     end do
   end subroutine write_plan
 
-  !> Notes, warnings and the closing summary into the log, the summary on the screen too; then
-  !> summary.json with the same numbers.
+  !> Notes, warnings and the closing summary into the log; on the screen the warnings that it
+  !> has not shown and the summary; then summary.json with the same numbers.
   subroutine close_log(run, ending)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: ending
     type(totals_t) :: totals
-    integer :: k
-    call collect_warnings(run)
+    call collect_messages(run)
     call find_totals(run, totals)
-    do k = 1, run%deck%problems%note_count
-      write (run%log_unit, '(a)') 'NOTE '//run%deck%problems%note(k)%text
-    end do
-    do k = 1, run%deck%problems%warning_count
-      write (run%log_unit, '(a)') 'WARNING '//run%deck%problems%warning(k)%text
-    end do
+    call show_warnings(run%warnings)
+    call write_messages(run, run%log_unit)
     if (failed(ending)) write (run%log_unit, '(a)') 'FAILED '//status_text(ending)
     call write_summary(run, totals, run%log_unit)
     call write_phases(run, run%log_unit)
@@ -97,51 +92,6 @@ contains
     if (run%quiet) return
     call write_summary(run, totals, output_unit)
   end subroutine close_log
-
-  subroutine collect_warnings(run)
-    type(run_t), intent(inout) :: run
-    real(wp) :: degrees
-    if (run%ledger%first_growth >= 0) call add_warning(run%deck%problems, &
-        'energy-growth: the energy rose by '//to_text(run%ledger%largest_growth)// &
-        ' of the largest term; first seen at step '//to_text(run%ledger%first_growth))
-    if (run%contact%tally%solves > 0 .and. .not. run%contact%tally%worst%met) &
-        call add_warning(run%deck%problems, 'certificate: in some step the contact forces '// &
-        'meet their law only to error '//to_text(run%contact%tally%worst%error)//', eta '// &
-        to_text(run%contact%tally%worst%eta)//' for the motion as computed')
-    if (run%contact%tally%overlap_step >= 0) call add_warning(run%deck%problems, &
-        'overlap: bodies overlap by up to '//to_text(run%contact%tally%overlap_share)// &
-        ' of the shorter edge, deepest at node '// &
-        to_text(run%model%node_id(run%contact%tally%overlap_node))//'; first at step '// &
-        to_text(run%contact%tally%overlap_step))
-    call note_touches(run)
-    if (run%contact%tally%wedged > 0) call add_warning(run%deck%problems, 'wedging: '// &
-        to_text(run%contact%tally%wedged)//' times friction was so large at a contact '// &
-        '(mu |W_nt| > W_nn) that several answers may exist; first at node '// &
-        to_text(run%model%node_id(run%contact%tally%wedged_node)))
-    degrees = run%rotation*180.0_wp/acos(-1.0_wp)
-    if (degrees > run%model%controls%rotation_warning) &
-        call add_warning(run%deck%problems, 'rotation: element '// &
-        to_text(run%model%element_id(run%rotation_element))//' turned by '//to_text(degrees)// &
-        ' degrees; the kinematics are those of small displacements')
-  end subroutine collect_warnings
-
-  !> Overlaps at the start that were taken for touches, and what closing overlaps gave back.
-  subroutine note_touches(run)
-    type(run_t), intent(inout) :: run
-    integer :: p
-    do p = 1, size(run%contact%pairing)
-      associate (pairing => run%contact%pairing(p)%item)
-        if (pairing%accepted_overlap > zero) call add_note(run%deck%problems, &
-            trim(merge('wall   ', 'contact', pairing%is_wall))//' '//to_text(pairing%id)// &
-            ': nodes up to '//to_text(pairing%accepted_overlap)//' deep at its start are '// &
-            'taken as touching: that is the rounding of the fields of a deck')
-        if (pairing%purse%spent > 1.0e-9_wp*run%ledger%largest) call add_note( &
-            run%deck%problems, trim(merge('wall   ', 'contact', pairing%is_wall))//' '// &
-            to_text(pairing%id)//': closing overlaps gave back '// &
-            to_text(pairing%purse%spent)//' of the energy that impacts had taken')
-      end associate
-    end do
-  end subroutine note_touches
 
   !> Steps, counts, ledger, contact certificate.
   subroutine write_summary(run, totals, unit)
@@ -173,8 +123,7 @@ contains
     if (run%plan%restarts) write (unit, '(a)') 'restart files written '// &
         to_text(run%restart_files)
     write (unit, '(a)') 'peak memory '//memory_text(totals)
-    write (unit, '(a)') 'notes '//to_text(run%deck%problems%note_count)//', warnings '// &
-        to_text(run%deck%problems%warning_count)
+    call write_kinds(run, unit)
   end subroutine write_summary
 
   !> How many rows of which kind the contact solves had, and what was found missing.

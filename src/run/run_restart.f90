@@ -209,14 +209,17 @@ contains
   subroutine exchange_progress(archive, run)
     type(archive_t), intent(inout) :: archive
     type(run_t), intent(inout) :: run
-    integer :: counts(5)
-    counts = [run%factors, run%analyses, run%solves, run%rotation_element, run%restart_files]
+    integer :: counts(6)
+    counts = [run%factors, run%analyses, run%solves, run%rotation_element, run%restart_files, &
+        run%rotations]
     call archive%exchange('run.counts', counts)
     run%factors = counts(1)
     run%analyses = counts(2)
     run%solves = counts(3)
     run%rotation_element = counts(4)
     run%restart_files = counts(5)
+    run%rotations = counts(6)
+    call archive%exchange('run.first_warned', run%first_warned)
     call archive%exchange('run.largest_motion', run%largest_motion)
     call archive%exchange('run.rotation', run%rotation)
     call archive%exchange('run.checked', run%checked)

@@ -5,6 +5,7 @@ module run_resume
   use base_archive, only: archive_t, archive_restore
   use base_checksum, only: checksum_of_text
   use base_files, only: path_length
+  use base_messages, only: add_message
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_text, status_file
   use base_strings, only: to_text
@@ -14,7 +15,6 @@ module run_resume
   use deck_difference, only: compare_decks, differences_t, most_told
   use deck_keywords, only: complete_table
   use deck_names, only: table_ncforc, table_spcforc
-  use deck_problems, only: add_note
   use deck_reader, only: read_deck_text
   use output_storage, only: restart_header_t
   use output_table, only: next_due, table_file_t
@@ -64,7 +64,7 @@ contains
       call restore(run, trim(paths(k)), may_try_older, trial)
       if (.not. (failed(trial) .and. may_try_older)) exit
       if (.not. failed(status)) status = trial
-      call add_note(run%deck%problems, 'restart: "'//trim(paths(k))//'" is passed over: '// &
+      call add_message(run%notes, '', 'restart: "'//trim(paths(k))//'" is passed over: '// &
           status_text(trial))
     end do
     if (size(paths) == 0) return
@@ -102,7 +102,7 @@ contains
         'cannot restart from "'//path//'": to this ENDTIM a contact acts that takes parts '// &
         'from the card of all parts, which had them in the run so far', &
         hint='start anew, or end the run before that contact is born')
-    call retime_tables(run%tables, run%model, time_told(run), run%scheme%h, run%deck%problems)
+    call retime_tables(run%tables, run%model, time_told(run), run%scheme%h, run%notes)
     call begin_late_tables(run, origin)
     call note_cut_step(run, origin)
     call check_tables(run%tables, run%model, run%folder, status)
@@ -159,9 +159,9 @@ contains
         '": it belongs to another deck; these differences change the steps so far:'//text, &
         hint='the end, output and restart cards may differ (doc/output.md), nothing else')
     do k = 1, min(found%allowed, most_told)
-      call add_note(run%deck%problems, 'restart: '//found%note(k)%text)
+      call add_message(run%notes, '', 'restart: '//found%note(k)%text)
     end do
-    if (found%allowed > most_told) call add_note(run%deck%problems, 'restart: '// &
+    if (found%allowed > most_told) call add_message(run%notes, '', 'restart: '// &
         to_text(found%allowed - most_told)//' more differences of output')
   end subroutine check_deck
 
@@ -207,7 +207,7 @@ contains
     if (origin%full_steps /= run%state%cycle .or. .not. origin%last_step > zero) return
     if (run%plan%full_steps == origin%full_steps .and. &
         .not. abs(run%plan%last_step - origin%last_step) > zero) return
-    call add_note(run%deck%problems, 'restart: the run so far ended with a step cut to '// &
+    call add_message(run%notes, '', 'restart: the run so far ended with a step cut to '// &
         to_text(origin%last_step)//'; this one goes on from the file before it, step '// &
         to_text(run%state%cycle)//', and that step is done anew')
   end subroutine note_cut_step

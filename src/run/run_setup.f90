@@ -3,13 +3,13 @@
 module run_setup
   use assembly_system, only: make_system, effective_matrix, stiffness_ratio
   use base_kinds, only: wp, zero
+  use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
   use contact_search, only: update_lists
   use contact_setup, only: make_contact, contact_nodes
   use deck_keywords, only: fill_table
   use deck_parameter, only: override_t
-  use deck_problems, only: add_note
   use deck_reader, only: read_deck
   use base_strings, only: to_text
   use linalg_registry, only: make_solver
@@ -44,6 +44,8 @@ contains
     call make_scene(run%deck, run%model, run%cone, run%solver_options, status)
     if (failed(status)) return
     call make_plan(run%model, run%plan)
+    run%notes = run%deck%problems%notes
+    run%warnings = run%deck%problems%warnings
     call run%timers%enter(phase_other)
   end subroutine read_scene
 
@@ -168,7 +170,7 @@ contains
       if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
       allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
       if (2*m > run%solver_options%block_limit) &
-          call add_note(run%deck%problems, 'the contact interface has '//to_text(2*m)// &
+          call add_message(run%notes, '', 'the contact interface has '//to_text(2*m)// &
           ' dofs, more than NLAST; it is kept dense all the same')
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)

@@ -215,15 +215,15 @@ contains
     type(json_t), intent(inout) :: json
     type(run_t), intent(in) :: run
     integer :: k
-    associate (p => run%deck%problems)
-      call json%open('[', 'warnings')
-      do k = 1, p%warning_count
-        call json%put(p%warning(k)%text)
-      end do
-      call json%close(']')
-      call json%put(p%warning_count, 'warning_count')
-      call json%put(p%note_count, 'note_count')
-    end associate
+    call json%open('[', 'warnings')
+    do k = 1, run%warnings%n
+      associate (item => run%warnings%item(k))
+        call json%put(item%kind//': '//item%text)
+      end associate
+    end do
+    call json%close(']')
+    call json%put(run%warnings%n, 'warning_count')
+    call json%put(run%notes%n, 'note_count')
   end subroutine put_warnings
 
   subroutine put_counts(json, run, totals)

@@ -122,8 +122,8 @@ contains
         if (deck%word(r, 'SIDE') == 'B') model%contact(row)%contactor = 2
         if (deck%word(r, 'SIDE') == 'BOTH') then
           model%contact(row)%contactor = 3
-          call add_warning(deck%problems, deck%place(r)//': SIDE BOTH: nodes of both sides '// &
-              'are exact; their reactions are not unique, resultants are')
+          call add_warning(deck%problems, 'both-sides', deck%place(r)//': SIDE BOTH: nodes '// &
+              'of both sides are exact; their reactions are not unique, resultants are')
         end if
       end if
       r = deck%next('BIPACT_PAIR', 1, r)
@@ -188,8 +188,9 @@ contains
             high = max(high, maxval(model%part(member)%thickness))
           end associate
         end do
-        if (high > low) call add_warning(deck%problems, deck%place(card%record)// &
-            ': bodies of unequal thickness are in contact')
+        if (high > low) call add_warning(deck%problems, 'thickness', deck%place(card%record)// &
+            ': bodies of unequal thickness are in contact: give them one T1, or read '// &
+            'forces as totals, each for its own thickness')
       end associate
     end do
   end subroutine warn_thickness

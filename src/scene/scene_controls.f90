@@ -134,7 +134,7 @@ contains
     call read_more(deck, '*BIPACT_TIME'//new_line('a')//merge('NEWMARK', 'THETA  ', newmark))
     if (.not. has_contact(deck)) return
     if (newmark) then
-      call add_warning(deck%problems, 'no *BIPACT_TIME, but GAMMA or BETA: the scheme is '// &
+      call add_warning(deck%problems, 'scheme', 'no *BIPACT_TIME, but GAMMA or BETA: it is '// &
           'NEWMARK, which gains energy without bound on impact; choose SCHEME THETA')
     else
       call add_note(deck%problems, 'no *BIPACT_TIME: the scheme is THETA with theta = xi = 1/2')
@@ -174,8 +174,9 @@ contains
       midpoint = &
           .not. (abs(controls%theta - 0.5_wp) > zero .or. abs(controls%xi - 0.5_wp) > zero)
     end if
-    if (.not. midpoint) call add_warning(deck%problems, 'the mass DISPERSION is tuned to '// &
-        'theta = xi = 1/2 (gamma 1/2, beta 1/4): other values lose its accuracy')
+    if (.not. midpoint) call add_warning(deck%problems, 'mass', 'the mass DISPERSION is '// &
+        'tuned to theta = xi = 1/2 (gamma 1/2, beta 1/4): other values lose its accuracy, '// &
+        'take these or another mass')
   end subroutine read_mass
 
   !> *BIPACT_CONTACT and *BIPACT_SOLVER.

@@ -5,7 +5,7 @@ module scene_loads
   use base_list, only: append
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use deck_problems, only: add_note
+  use deck_problems, only: add_note, add_warning
   use model_data, only: model_t, curve_t, load_t, segment_owner
   use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
   use scene_sets, only: read_segment
@@ -66,8 +66,7 @@ contains
     end if
   end subroutine read_curve
 
-  !> Row of the curve that a card names; 0 and a problem if there is none. A curve that ends
-  !> before the run is noted: it stays constant then.
+  !> Row of the curve that a card names; 0 and a problem if there is none.
   integer function curve_of(deck, model, maps, record)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -79,12 +78,29 @@ contains
     if (curve_of == 0) then
       call deck%complain(record, 'LCID', 'curve '//to_text(id)//' is not defined', &
           'add a *DEFINE_CURVE with this number')
-    else if (model%curve(curve_of)%a(size(model%curve(curve_of)%a)) &
-        < model%controls%end_time) then
-      call add_note(deck%problems, 'curve '//to_text(id)// &
-          ' ends before the run: it stays '//'constant')
+    else
+      call tell_end(deck, model%curve(curve_of), model%controls%end_time)
     end if
   end function curve_of
+
+  !> A curve that ends before the run stays constant: where its last points are level that is
+  !> a note, else it breaks off, a warning.
+  subroutine tell_end(deck, curve, end_time)
+    type(deck_t), intent(inout) :: deck
+    type(curve_t), intent(in) :: curve
+    real(wp), intent(in) :: end_time
+    integer :: n
+    n = size(curve%a)
+    if (.not. curve%a(n) < end_time) return
+    if (abs(curve%o(n) - curve%o(max(1, n - 1))) > zero) then
+      call add_warning(deck%problems, 'curve', 'the run leaves curve '//to_text(curve%id)// &
+          ' at time '//to_text(curve%a(n))//': it stays at '//to_text(curve%o(n))// &
+          '; give it points until ENDTIM')
+    else
+      call add_note(deck%problems, 'curve '//to_text(curve%id)// &
+          ' ends before the run: it stays constant')
+    end if
+  end subroutine tell_end
 
   !> Rows of the node (NID) or of the node set (NSID) that a card names.
   subroutine nodes_of(deck, model, maps, record, is_set, list)

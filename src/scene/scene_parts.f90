@@ -34,8 +34,9 @@ contains
       call make_material(trim(material_keywords(law(k))), ids(k), &
           constants_of(deck, record(k)), model%material(k)%item)
       if (deck%real(record(k), 'PR') > 0.49_wp) &
-          call add_warning(deck%problems, deck%place(record(k))//': PR > 0.49 of material '// &
-          to_text(ids(k))//': fully integrated elements lock')
+          call add_warning(deck%problems, 'poisson', deck%place(record(k))// &
+          ': PR > 0.49 of material '//to_text(ids(k))//': fully integrated elements '// &
+          'lock; lower PR, or refine')
     end do
     call make_id_map(deck, 'material', 'MID', ids, record, maps%material)
   end subroutine read_materials
