@@ -2,6 +2,7 @@
 !> Everything a run consists of, and the order to make it (run_setup), plan it (run_plan), go
 !> through it (run_loop) and tell of it (run_report).
 module run_data
+  use assembly_bending, only: bending_t
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, i8
   use base_messages, only: messages_t
@@ -80,7 +81,8 @@ module run_data
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
     integer :: rotations = 0           !< looks that found one beyond ROTWARN
-    integer :: checked = 0             !< step of the last check of overlap
+    integer :: looked = 0              !< step of the last look at all bodies
+    type(bending_t) :: bending         !< of the elements, by part
     logical :: broken = .false.        !< NaN or infinity: the state is not written
     class(storage_t), allocatable :: storage  !< what can keep fields and restarts
     type(fields_t), allocatable :: fields     !< only with field files

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The step loop.
 module run_loop
+  use assembly_bending, only: look_at_bending
   use assembly_forces, only: add_loads, largest_rotation, first_inverted, &
       subtract_internal_force, subtract_damping_force
   use assembly_system, only: clear_fixed, multiply_mass
@@ -26,7 +27,7 @@ module run_loop
   use run_setup, only: factor_matrix
   use run_tables, only: write_rows
   use run_warnings, only: notice_warnings
-  use time_ledger, only: evaluate_ledger, largest_work
+  use time_ledger, only: evaluate_ledger, find_strain_energies, largest_work
   implicit none
   private
   public :: go_through_steps, advance
@@ -366,7 +367,7 @@ contains
     type(run_t), intent(inout) :: run
     logical, intent(in) :: last
     type(status_t), intent(inout) :: status
-    logical :: energies
+    logical :: energies, due
     real(wp) :: h
     h = run%scheme%h
     energies = energies_due(run%tables, run%state%time, h, last) .or. last
@@ -375,29 +376,39 @@ contains
     if (energies .and. .not. run%broken) call watch(run, status)
     if (run%broken) return
     if (run%plan%fields) call keep_frame(run, last, status)
-    if (last .and. run%plan%contact .and. .not. failed(status)) &
-        call check_overlap(run, last, status)
-    if (.not. (run%tables%any_on .and. last)) then
-      if (.not. any_due(run%tables, run%state%time, h)) return
-    end if
-    if (.not. last .and. run%plan%contact) call check_overlap(run, last, status)
+    due = any_due(run%tables, run%state%time, h)
+    if (last .or. due) call take_looks(run, last, status)
+    if (.not. (due .or. last .and. run%tables%any_on)) return
     call run%timers%enter(phase_output)
     call write_rows(run, last, status)
     call run%timers%enter(phase_other)
   end subroutine tell
 
-  !> True overlap of all bodies in contact: at output times that are not too close, and at the
-  !> end. It means something while elements are not inverted.
-  subroutine check_overlap(run, last, status)
+  !> Looks at all bodies: at output times that are not too close, and at the end.
+  subroutine take_looks(run, last, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: last
     type(status_t), intent(inout) :: status
-    !> Steps between two checks: then they cost little beside the steps. Lists cover the rest.
+    !> Steps between two looks: then they cost little beside the steps.
     integer, parameter :: apart = 50
-    integer :: element
     if (failed(status)) return
-    if (.not. last .and. run%state%cycle < run%checked + apart) return
-    run%checked = run%state%cycle
+    if (.not. last .and. run%state%cycle < run%looked + apart) return
+    run%looked = run%state%cycle
+    if (run%plan%contact) call check_overlap(run, status)
+    if (failed(status)) return
+    call run%timers%enter(phase_energy)
+    call find_strain_energies(run%model, run%system, run%state, run%ledger)
+    call look_at_bending(run%model, run%system, run%state%u, run%ledger%part_internal, &
+        run%state%cycle, run%bending)
+    call run%timers%enter(phase_other)
+  end subroutine take_looks
+
+  !> True overlap of all bodies in contact, beyond what lists cover in every step. It means
+  !> something while elements are not inverted.
+  subroutine check_overlap(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    integer :: element
     call run%timers%enter(phase_search)
     call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
     element = 0

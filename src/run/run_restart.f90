@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Restart files: when one is due and what it holds. Only scenes that ask for them come here.
 module run_restart
+  use assembly_bending, only: exchange_bending
   use base_archive, only: archive_t, archive_save
   use base_checksum, only: checksum_of_text
   use base_files, only: open_text, close_text, list_files, move_file, remove_file, sync_file, &
@@ -182,6 +183,7 @@ contains
     call exchange_state(archive, run%state)
     if (run%plan%contact) call exchange_contact(archive, run%contact, origin%new_nodal)
     call exchange_ledger(archive, run%ledger)
+    call exchange_bending(archive, run%bending)
     call exchange_tables(archive, run%tables)
     call exchange_frames(archive, run, time_told(run))
     call archive%agree('reaction.', run%plan%reactions, are_kept)
@@ -222,7 +224,7 @@ contains
     call archive%exchange('run.first_warned', run%first_warned)
     call archive%exchange('run.largest_motion', run%largest_motion)
     call archive%exchange('run.rotation', run%rotation)
-    call archive%exchange('run.checked', run%checked)
+    call archive%exchange('run.looked', run%looked)
   end subroutine exchange_progress
 
   !> Up to where [T] rows and frames were written when a restart file was: the step before it;

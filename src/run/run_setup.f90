@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
 module run_setup
+  use assembly_bending, only: make_bending
   use assembly_system, only: make_system, effective_matrix, stiffness_ratio
   use base_kinds, only: wp, zero
   use base_messages, only: add_message
@@ -72,6 +73,7 @@ contains
     call run%scheme%start(run%model, run%system, run%state, status)
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
+    call make_bending(run%model, run%bending)
     if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
         'the initial energy is no finite number', hint='check units and initial velocities')
     call make_solver(run%solver_options, run%solver, status)

@@ -3,6 +3,7 @@
 !> step in which it is first seen; log and closing summary have it as it stands at the end.
 module run_warnings
   use, intrinsic :: iso_fortran_env, only: error_unit
+  use assembly_bending, only: locks, excess
   use base_kinds, only: wp, zero, one
   use base_messages, only: messages_t, add_message, set_message
   use base_strings, only: to_text
@@ -48,6 +49,7 @@ contains
   subroutine collect_messages(run)
     type(run_t), intent(inout) :: run
     call update_warnings(run)
+    call warn_of_bending(run)
     call note_touches(run)
   end subroutine collect_messages
 
@@ -104,6 +106,65 @@ contains
         since//': the kinematics of small displacements take it for a strain of '// &
         to_text(one - cos(run%rotation))//'; end the run before'
   end function rotation_text
+
+  !> Parts whose elements lock in bending: by all looks, so at the end only. The one that lacks
+  !> most is described.
+  subroutine warn_of_bending(run)
+    type(run_t), intent(inout) :: run
+    !> A part with less of the energy of the run is as good as rigid, or holds its round-off.
+    real(wp), parameter :: least = 1.0e-6_wp
+    character(:), allocatable :: text, others
+    integer :: p, worst, parts
+    worst = 0
+    parts = 0
+    others = ''
+    do p = 1, size(run%model%part)
+      if (.not. locks(run%bending, p, least*run%ledger%largest)) cycle
+      parts = parts + 1
+      if (worst == 0) worst = p
+      if (excess(run%bending%sum(p)) > excess(run%bending%sum(worst))) worst = p
+      if (parts <= 9) others = others//' '//to_text(run%model%part(p)%id)
+    end do
+    if (parts == 0) return
+    text = bending_text(run, worst)
+    if (parts > 1) text = text//'; '//to_text(parts)//' parts do so, among them'//others
+    call set_message(run%warnings, 'bending', text, run%bending%step(worst), parts)
+  end subroutine warn_of_bending
+
+  function bending_text(run, p) result(text)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: p
+    character(:), allocatable :: text
+    associate (sum => run%bending%sum(p))
+      text = 'part '//to_text(run%model%part(p)%id)//': '//percent(sum%modes/sum%strain)// &
+          ' of its strain energy is in bending modes of its elements, which cost '// &
+          one_decimal(sum%modes/max(sum%exact, 1.0e-3_wp*sum%modes))//' times what bending costs: it gives way about '// &
+          percent(excess(sum))//' too little under a load; most at '// &
+          moment(run, run%bending%step(p))
+    end associate
+    if (any(run%model%element_part == p .and. run%model%connectivity(3, :) &
+        == run%model%connectivity(4, :))) then
+      text = text//': take quadrilaterals, or eight triangles or more over the height'
+    else
+      text = text//': take three elements or more over the height'
+    end if
+    text = text//' of what bends, not longer than high'
+  end function bending_text
+
+  !> A share as a whole number of hundredths.
+  function percent(share) result(text)
+    real(wp), intent(in) :: share
+    character(:), allocatable :: text
+    text = to_text(nint(100.0_wp*share))//' %'
+  end function percent
+
+  function one_decimal(number) result(text)
+    real(wp), intent(in) :: number
+    character(:), allocatable :: text
+    character(24) :: buffer
+    write (buffer, '(f0.1)') number
+    text = trim(buffer)
+  end function one_decimal
 
   !> A step and its time.
   function moment(run, step) result(text)

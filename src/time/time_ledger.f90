@@ -42,7 +42,8 @@ module time_ledger
     real(wp), allocatable :: corner_share(:)
   end type ledger_t
 
-  public :: make_ledger, evaluate_ledger, balance, exchange_ledger, largest_work
+  public :: make_ledger, evaluate_ledger, find_strain_energies, balance, exchange_ledger, &
+      largest_work
 
 contains
 
@@ -141,6 +142,16 @@ contains
     call balance(ledger)
     call watch_growth(ledger)
   end subroutine evaluate_ledger
+
+  !> part_internal alone, at a state that has not been evaluated.
+  subroutine find_strain_energies(model, system, state, ledger)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    type(ledger_t), intent(inout) :: ledger
+    if (ledger%evaluated == state%cycle) return
+    call strain_energies(system, model%element_part, state%u, ledger%part_internal)
+  end subroutine find_strain_energies
 
   !> A share of the momentum and kinetic energy of node i to a part.
   pure subroutine add_node(ledger, part, share, v, i)

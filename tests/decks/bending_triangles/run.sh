@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# triangles in bending.py says what must be told, and where the bounds come from.
+exec "$PYTHON" "$ROOT/tests/decks/bending.py" triangles
