@@ -138,7 +138,8 @@ contains
     associate (sum => run%bending%sum(p))
       text = 'part '//to_text(run%model%part(p)%id)//': '//percent(sum%modes/sum%strain)// &
           ' of its strain energy is in bending modes of its elements, which cost '// &
-          one_decimal(sum%modes/max(sum%exact, 1.0e-3_wp*sum%modes))//' times what bending costs: it gives way about '// &
+          one_decimal(sum%modes/max(sum%exact, 1.0e-3_wp*sum%modes))// &
+          ' times what bending costs: it gives way about '// &
           percent(excess(sum))//' too little under a load; most at '// &
           moment(run, run%bending%step(p))
     end associate
