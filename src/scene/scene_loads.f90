@@ -66,7 +66,8 @@ contains
     end if
   end subroutine read_curve
 
-  !> Row of the curve that a card names; 0 and a problem if there is none.
+  !> Row of the curve that a card names; 0 and a problem if there is none. A curve that begins
+  !> after the run is noted: it is constant before.
   integer function curve_of(deck, model, maps, record)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -79,6 +80,8 @@ contains
       call deck%complain(record, 'LCID', 'curve '//to_text(id)//' is not defined', &
           'add a *DEFINE_CURVE with this number')
     else
+      if (model%curve(curve_of)%a(1) > zero) call add_note(deck%problems, 'curve '// &
+          to_text(id)//' begins after t = 0: it is constant before')
       call tell_end(deck, model%curve(curve_of), model%controls%end_time)
     end if
   end function curve_of

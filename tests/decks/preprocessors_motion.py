@@ -127,6 +127,12 @@ def curves():
             curve_deck(fixed(1), *points(*expected)),
             notes=["stays constant"],
         )
+    same(
+        "curve: it begins late",
+        curve_deck(fixed(1), *points((0.004, 1.0), (0.02, 3.0))),
+        curve_deck(fixed(1), *points((0.0, 1.0), (0.004, 1.0), (0.02, 3.0))),
+        notes=["curve 1 begins after t = 0: it is constant before"],
+    )
     motion = cards("BOUNDARY_PRESCRIBED_MOTION_NODE", fixed(15, 2, 0, 5)) + "\n"
     same(
         "a motion by a shifted curve",
