@@ -174,7 +174,7 @@ contains
   end function first_card
 
   !> A set of cards that only one of the decks has. Where the keyword stands once at most, blank
-  !> cards say the same as none, but for *BIPACT_TIME, without which the scheme is another.
+  !> cards say the same as none.
   subroutine compare_with_none(old, new, is_new, first, last, found)
     type(deck_t), intent(in) :: old, new
     logical, intent(in) :: is_new
@@ -185,7 +185,7 @@ contains
     if (is_new) name = name_of(new, first)
     if (.not. is_new) name = name_of(old, first)
     once = new%table%keyword(max(1, row_of(old, new, is_new, first)))%once
-    if (once .and. name /= 'BIPACT_TIME') then
+    if (once) then
       if (is_new) call compare_sets(old, 1, 0, new, first, last, found)
       if (.not. is_new) call compare_sets(old, first, last, new, 1, 0, found)
     else if (is_new) then

@@ -131,7 +131,8 @@ contains
     r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
     newmark = .not. has_contact(deck)
     if (r > 0) newmark = newmark .or. deck%is_given(r, 'GAMMA') .or. deck%is_given(r, 'BETA')
-    call read_more(deck, '*BIPACT_TIME'//new_line('a')//merge('NEWMARK', 'THETA  ', newmark))
+    call read_more(deck, '*BIPACT_TIME'//new_line('a')// &
+        merge('NEWMARK,     ', 'THETA,0.5,0.5', newmark))
     if (.not. has_contact(deck)) return
     if (newmark) then
       call add_warning(deck%problems, 'scheme', 'no *BIPACT_TIME, but GAMMA or BETA: it is '// &

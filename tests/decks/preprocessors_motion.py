@@ -320,7 +320,10 @@ def goes_on():
     late = SECTIONS["end"].replace(" 0.01", "0.012")
     folder, code, errors = run_text("early", deck(time="", more=restarts), "--quiet")
     check(code == 0, "a run with restart files: " + errors)
-    for name, changes in (("no card", dict(time="")), ("the card", {})):
+    for name, changes in (
+        ("no card", dict(time="")),
+        ("the card", dict(time="*BIPACT_TIME\n" + fixed("THETA", 0.5, 0.5))),
+    ):
         text = deck(end=late, more=restarts, **changes)
         whole, code, errors = run_text("whole", text, "--quiet")
         check(code == 0, name + ": " + errors)

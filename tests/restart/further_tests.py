@@ -450,7 +450,8 @@ def same_decks(text):
     yield "blank cards", text.replace(
         "*END", "*BIPACT_LEDGER\n,\n*CONTROL_IMPLICIT_SOLUTION\n1,\n*END"
     ), []
-    yield "a penalty factor", text.replace("11,12,,", "11,12,2.0,"), ["field SFACT", "blank", "2.0"]
+    yield "no card of the scheme", text.replace("*BIPACT_TIME\nTHETA,0.5,0.5,\n", ""), []
+    yield "a penalty factor", text.replace("11,12,,", "11,12,2.0,"), ["field SFACT", "1.0", "2.0"]
     yield "a title", text.replace("test scene", "another one"), ["*TITLE, field TITLE"]
     yield "a heading", text.replace("\nbase\n", "\nfoot\n"), ["*PART 1, field HEADING"]
     for card, words in (
@@ -495,7 +496,6 @@ def other_decks(text):
     yield "LDLT,", "SKYLINE,", "*BIPACT_SOLVER, field ENGINE", "LDLT", "SKYLINE"
     yield "\n30,1.0,1.002\n", "\n30,1.0,1.5\n", "*NODE 30, field Y", "1.002", "1.5"
     yield "*LOAD_BODY_Y\n7,1.5\n", "", "*LOAD_BODY_Y 7: in the run so far, not in this deck", "", ""
-    yield "*BIPACT_TIME\nTHETA,0.5,0.5,\n", "", "*BIPACT_TIME: in the run so far", "", ""
     first, second = re.search(r"\*ELEMENT_SHELL\n(.*)\n(.*)\n", text).groups()
     yield first + "\n" + second, second + "\n" + first, "*ELEMENT_SHELL 2, field EID", "1", "2"
 
