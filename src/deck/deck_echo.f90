@@ -78,9 +78,8 @@ contains
     character(*), intent(in) :: line
     type(card_t), intent(in) :: card
     logical, intent(in) :: long
-    character(200) :: fixed
-    character(:), allocatable :: list, value
-    integer :: f, width, first
+    character(:), allocatable :: list
+    integer :: f
     logical :: comma
     if (card%field(1)%kind == 'T') then
       call put_line(lines, line)
@@ -91,27 +90,52 @@ contains
       call put_line(lines, line)
       return
     end if
-    fixed = ''
+    if (.not. comma) call write_columns(deck, lines, r, card, long, comma)
+    if (.not. comma) return
     list = ''
     do f = 1, card%fields
-      value = deck%text_at(r, f)
-      if (card%field(f)%zero_is_default .and. .not. deck%is_given(r, card%field(f)%name)) &
-          value = trim(card%field(f)%default)
-      width = merge(20, card%field(f)%width, long)
-      first = merge(20*(f - 1) + 1, card%field(f)%first, long)
-      if (len(value) > width) then
-        comma = .true.
-      else
-        fixed(first + width - len(value):first + width - 1) = value
-      end if
-      list = list//value//','
+      list = list//value_of(deck, r, f, card%field(f))//','
     end do
-    if (comma) then
-      call put_line(lines, list(1:max(verify(list, ',', back=.true.), 1))//',')
-    else
-      call put_line(lines, trim(fixed))
-    end if
+    call put_line(lines, list(1:max(verify(list, ',', back=.true.), 1))//',')
   end subroutine write_card
+
+  !> A card in columns; comma: a value needs more room, nothing is written.
+  subroutine write_columns(deck, lines, r, card, long, comma)
+    type(deck_t), intent(in) :: deck
+    type(lines_t), intent(inout) :: lines
+    integer, intent(in) :: r
+    type(card_t), intent(in) :: card
+    logical, intent(in) :: long
+    logical, intent(out) :: comma
+    character(200) :: fixed
+    character(:), allocatable :: value
+    integer :: f, last
+    comma = .true.
+    fixed = ''
+    do f = 1, card%fields
+      value = value_of(deck, r, f, card%field(f))
+      if (len(value) > merge(20, card%field(f)%width, long)) return
+      last = merge(20*f, card%field(f)%first + card%field(f)%width - 1, long)
+      fixed(last - len(value) + 1:last) = value
+    end do
+    comma = .false.
+    call put_line(lines, trim(fixed))
+  end subroutine write_columns
+
+  !> What a field means, as text.
+  pure function value_of(deck, r, f, field) result(value)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: r, f
+    type(field_t), intent(in) :: field
+    character(:), allocatable :: value
+    if (field%zero_is_default) then
+      if (.not. deck%is_given(r, field%name)) then
+        value = trim(field%default)
+        return
+      end if
+    end if
+    value = deck%text_at(r, f)
+  end function value_of
 
   !> A card with neither parameters nor defaults to fill in can be copied.
   pure logical function plain(line, card, comma, long)
