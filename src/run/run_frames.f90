@@ -32,14 +32,15 @@ contains
     call make_mesh(run%model, run%fields, run%mesh)
   end subroutine start_frames
 
-  !> A frame, if it is due; the last step has one, also where the step has failed.
+  !> A frame, if it is due; the last step has one, also where the step has failed, but not where
+  !> a file could not be written: frames may have been lost.
   subroutine keep_frame(run, last, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: last
     type(status_t), intent(inout) :: status
     type(status_t) :: own
     logical :: first
-    if (run%broken) return
+    if (run%broken .or. status%code == status_file) return
     if (.not. frame_is_due(run%model, run%fields, run%state%time, run%scheme%h, last)) return
     first = run%fields%frames == 0
     if (.not. first) then

@@ -122,7 +122,8 @@ def vtkhdf(run, what):
         for step in range(steps):
             reader.SetStep(step)
             reader.Update()
-            check(abs(reader.GetTimeValue() - run.times[k]) == 0.0, what + ": time")
+            # Of a file with one step VTK takes no time.
+            check(steps == 1 or reader.GetTimeValue() == run.times[k], what + ": time")
             compare(reader.GetOutput(), run, k, what + ", VTKHDF")
             k += 1
     check(k == len(run.times), "%s: %d of %d frames" % (what, k, len(run.times)))
