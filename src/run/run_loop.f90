@@ -111,8 +111,10 @@ contains
     acting = .false.
     call run%timers%enter(phase_product)
     run%b = zero
-    if (run%plan%loads) call weigh_loads(run, t1)
+    if (run%plan%loads) call weigh_loads(run, stage, t1)
     call run%scheme%right_side(stage, run%system, run%state, run%b)
+    call subtract_internal_force(run%system, run%scheme%stage(stage)%force_weight, &
+        run%state%u, run%b)
     call hold_dofs(run, stage, t1)
     call run%timers%enter(phase_solve)
     call run%solver%forward(run%b, run%b_last)
@@ -297,14 +299,17 @@ contains
   end subroutine clear_constrained_forces
 
   !> Loads at both ends of the step, and their weighted sum into b.
-  subroutine weigh_loads(run, t1)
+  subroutine weigh_loads(run, stage, t1)
     type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
     real(wp), intent(in) :: t1
     run%load_0 = zero
     run%load_1 = zero
     call add_loads(run%model, run%system, run%state%time, one, run%load_0)
     call add_loads(run%model, run%system, t1, one, run%load_1)
-    run%b = run%scheme%load_weight(1)*run%load_0 + run%scheme%load_weight(2)*run%load_1
+    associate (weight => run%scheme%stage(stage)%load_weight)
+      run%b = weight(1)*run%load_0 + weight(2)*run%load_1
+    end associate
   end subroutine weigh_loads
 
   !> The largest motion x of a node in the step; NaN or infinity is a failure.

@@ -13,11 +13,17 @@ module time_base
   !> Contact on positions: x = U1 - U0, u_n = gap at the end, u_t = slip of the step, r = force.
   integer, parameter, public :: level_position = 1
 
+  !> One solve of a step: A x = b + H' r with A = cM M + cC C + cK K and
+  !> b = (inertia, by the scheme) + load_weight(1) P0 + load_weight(2) P1
+  !>     - force_weight K (U0 + force_lead V0).
   type, public :: stage_t
     real(wp) :: c_m = zero   !< [1/T2]
-    real(wp) :: c_c = zero   !< on the damping of massless nodes
+    real(wp) :: c_c = zero   !< on the layer of massless nodes
     real(wp) :: c_k = zero
     integer :: level = level_position
+    real(wp) :: load_weight(2) = [zero, one]
+    real(wp) :: force_weight = one
+    real(wp) :: force_lead = zero            !< [T]
   end type stage_t
 
   type, abstract, public :: scheme_t
@@ -28,9 +34,7 @@ module time_base
     !> Over the step the bodies feel the reactions weight_before r0 + weight_now r1.
     real(wp) :: weight_before = zero
     real(wp) :: weight_now = one
-    !> Weights of the loads P0, P1 in the right-hand side, and in the work that the ledger
-    !> counts.
-    real(wp) :: load_weight(2) = [zero, one]
+    !> Weights of the loads P0, P1 in the work that the ledger counts.
     real(wp) :: load_work_weight(2) = [zero, one]
     !> True when the scheme has damping of its own to be accounted for.
     logical :: dissipates = .false.
@@ -59,7 +63,7 @@ module time_base
       type(state_t), intent(inout) :: state
       type(status_t), intent(inout) :: status
     end subroutine start_i
-    !> b of A x = b [F]; on entry b holds the loads as the stage weighs them.
+    !> Adds the inertia to b of A x = b [F]; loads and internal forces are the pipeline's.
     subroutine right_side_i(this, stage, system, state, b)
       import :: scheme_t, system_t, state_t, wp
       class(scheme_t), intent(inout) :: this

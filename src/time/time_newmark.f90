@@ -112,7 +112,6 @@ contains
     real(wp), intent(inout) :: b(:, :)
     this%d = this%h*state%v + (this%h**2*(half - this%beta))*state%a
     call multiply_mass(system, this%stage(1)%c_m, this%d, b)
-    call subtract_internal_force(system, one, state%u, b)
   end subroutine newmark_right_side
 
   !> U1 = U0 + x, A1 = (x - D)/(beta h^2), V1 = V0 + h [(1 - gamma) A0 + gamma A1].

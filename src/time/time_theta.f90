@@ -8,7 +8,7 @@
 !> therefore get xi = 1/2 + layer_damping: the force left dies out within some 25 steps, and the
 !> ledger counts what it took.
 module time_theta
-  use assembly_forces, only: subtract_internal_force, strain_product, damping_product
+  use assembly_forces, only: strain_product, damping_product
   use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
@@ -43,8 +43,8 @@ contains
     this%h = h
     this%stage = [stage_t(c_m=one/(this%theta*h**2), c_k=this%xi)]
     if (.not. this%xi > half) this%stage(1)%c_c = layer_damping
-    this%load_weight = [one - this%xi, this%xi]
-    this%load_work_weight = this%load_weight
+    this%stage(1)%load_weight = [one - this%xi, this%xi]
+    this%load_work_weight = this%stage(1)%load_weight
     this%dissipates = this%dissipates .or. this%theta > half .or. this%xi > half
   end subroutine theta_set_step
 
@@ -67,7 +67,6 @@ contains
     type(state_t), intent(in) :: state
     real(wp), intent(inout) :: b(:, :)
     call multiply_mass(system, one/(this%theta*this%h), state%v, b)
-    call subtract_internal_force(system, one, state%u, b)
   end subroutine theta_right_side
 
   !> U1 = U0 + x, V1 = (1 - 1/theta) V0 + x/(theta h).
