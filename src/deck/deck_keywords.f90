@@ -96,7 +96,7 @@ contains
     call add_field(table, 'TDYDTH', 'R10 fixed [T] =1.0E28 0=d')
     call add_field(table, 'TDYBUR', 'R10 fixed [T] =1.0E28 0=d')
     call add_field(table, 'IRATE', 'I10 fixed')
-    call add_field(table, 'ALPHA', 'R10 fixed', 'of HHT, which is not available')
+    call add_field(table, 'ALPHA', 'R10 =0.0 <=0', 'alpha of HHT, from -1/3 to below 0')
     call add_card(table)
     call add_field(table, 'PSID', 'I10 fixed')
     call add_field(table, 'ANGLE', 'R10 note =90.0 0=d', 'of part rotations')

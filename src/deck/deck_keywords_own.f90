@@ -26,7 +26,8 @@ contains
     call add_field(table, 'XI', 'R10 >=0.5 <=1', &
         'weight of the forces at the end; blank = THETA')
     call add_field(table, 'REST', 'R10 fixed')
-    call add_field(table, 'RHOINF', 'R10 fixed')
+    call add_field(table, 'RHOINF', 'R10 >=0 <=1', &
+        'spectral radius at infinite frequency, of GENALPHA; blank = 0.8')
     call add_field(table, 'RULE', 'W10 fixed')
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)

@@ -10,12 +10,16 @@ module deck_schemes
     character(10) :: name = ''
     logical :: takes_theta = .false.       !< THETA and XI
     logical :: takes_gamma = .false.       !< GAMMA and BETA of *CONTROL_IMPLICIT_DYNAMICS
+    logical :: takes_alpha = .false.       !< ALPHA of *CONTROL_IMPLICIT_DYNAMICS
+    logical :: takes_rho = .false.         !< RHOINF
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
   end type scheme_traits_t
 
-  type(scheme_traits_t), parameter, public :: schemes(2) = [ &
+  type(scheme_traits_t), parameter, public :: schemes(4) = [ &
       scheme_traits_t('THETA', takes_theta=.true.), &
-      scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.)]
+      scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.), &
+      scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &
+      scheme_traits_t('GENALPHA', takes_rho=.true., has_acceleration=.true.)]
 
   public :: traits_of
 

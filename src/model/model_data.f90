@@ -145,6 +145,8 @@ module model_data
     real(wp) :: xi = 0.5_wp
     real(wp) :: gamma = 0.5_wp
     real(wp) :: beta = 0.25_wp
+    real(wp) :: alpha = 0.0_wp          !< of HHT
+    real(wp) :: rho = 0.8_wp            !< of GENALPHA
     character(10) :: mass = 'CONSISTENT'
     logical :: redistribute = .false.
     real(wp) :: courant = -1.0_wp       !< of DISPERSION; < 0 = from dt

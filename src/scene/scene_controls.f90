@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Time, scheme, mass and solver options: from cards to the model.
 module scene_controls
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use cone_types, only: cone_options_t, find_solver, local_solver
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_problem, add_note
@@ -87,6 +87,9 @@ contains
     controls%beta = deck%real(r, 'BETA')
     if (deck%integer(r, 'IMASS') /= 1) call deck%complain(r, 'IMASS', &
         'expected 1: static analysis is not available in this version')
+    controls%alpha = deck%real(r, 'ALPHA')
+    if (controls%alpha < -one/3.0_wp) call deck%complain(r, 'ALPHA', &
+        'expected a number from -1/3 to below 0: alpha of HHT')
     if (4.0_wp*controls%beta < (controls%gamma + 0.5_wp)**2) call deck%complain(r, 'BETA', &
         'expected BETA >= (GAMMA + 1/2)^2/4, the bound of unconditional stability', &
         'use GAMMA 0.5 with BETA 0.25')
@@ -108,11 +111,33 @@ contains
     if (deck%is_given(r, 'XI')) controls%xi = deck%real(r, 'XI')
     call refuse_field(deck, r, controls%scheme, 'THETA', traits%takes_theta)
     call refuse_field(deck, r, controls%scheme, 'XI', traits%takes_theta)
-    if (traits%takes_gamma) return
+    call refuse_field(deck, r, controls%scheme, 'RHOINF', traits%takes_rho)
+    if (deck%is_given(r, 'RHOINF')) controls%rho = deck%real(r, 'RHOINF')
+    call check_dynamics(deck, controls, traits)
+    if (traits%takes_gamma .or. traits%takes_alpha .or. traits%takes_rho) return
     if (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) > zero) &
         call add_note(deck%problems, 'GAMMA and BETA have no effect: they are none of '// &
         'scheme '//trim(controls%scheme))
   end subroutine read_scheme
+
+  !> ALPHA belongs to HHT, which computes gamma and beta of its own.
+  subroutine check_dynamics(deck, controls, traits)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(in) :: controls
+    type(scheme_traits_t), intent(in) :: traits
+    real(wp), parameter :: near = 1.0e-12_wp
+    integer :: r
+    r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
+    if (r == 0) return
+    if (traits%takes_alpha .and. .not. controls%alpha < zero) call deck%complain(r, 'ALPHA', &
+        'scheme '//trim(traits%name)//' needs ALPHA from -1/3 to below 0')
+    if (.not. traits%takes_alpha .and. controls%alpha < zero) call deck%complain(r, 'ALPHA', &
+        'scheme '//trim(traits%name)//' of *BIPACT_TIME has no ALPHA: leave it blank')
+    if (.not. (traits%takes_alpha .or. traits%takes_rho)) return
+    if (abs(controls%gamma - 0.5_wp) > near .or. abs(controls%beta - 0.25_wp) > near) &
+        call deck%complain(r, 'GAMMA', 'scheme '//trim(traits%name)// &
+        ' computes gamma and beta of its own: leave GAMMA and BETA blank')
+  end subroutine check_dynamics
 
   !> A field that the scheme does not use must be blank.
   subroutine refuse_field(deck, record, scheme, name, is_used)
@@ -126,14 +151,16 @@ contains
 
   subroutine choose_scheme(deck)
     type(deck_t), intent(inout) :: deck
+    character(13) :: scheme
     logical :: newmark
     integer :: r
     r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
     newmark = .not. has_contact(deck)
     if (r > 0) newmark = newmark .or. deck%is_given(r, 'GAMMA') .or. deck%is_given(r, 'BETA')
-    call read_more(deck, '*BIPACT_TIME'//new_line('a')// &
-        merge('NEWMARK,     ', 'THETA,0.5,0.5', newmark))
-    if (.not. has_contact(deck)) return
+    scheme = merge('NEWMARK,     ', 'THETA,0.5,0.5', newmark)
+    if (r > 0) scheme = merge('HHT,         ', scheme, deck%real(r, 'ALPHA') < zero)
+    call read_more(deck, '*BIPACT_TIME'//new_line('a')//trim(scheme))
+    if (scheme == 'HHT,' .or. .not. has_contact(deck)) return
     if (newmark) then
       call add_warning(deck%problems, 'scheme', 'no *BIPACT_TIME, but GAMMA or BETA: it is '// &
           'NEWMARK, which gains energy without bound on impact; choose SCHEME THETA')

@@ -5,17 +5,14 @@
 !> to be compared with. One stage: [M/(beta h^2) + K] x = M D/(beta h^2) - K U0 + P1 + R1, D = h
 !> V0 + h^2 (1/2 - beta) A0.
 module time_newmark
-  use assembly_forces, only: subtract_internal_force, strain_product, add_loads
-  use assembly_system, only: system_t, multiply_mass, effective_matrix, clear_fixed
+  use assembly_forces, only: strain_product
+  use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one, half
-  use base_status, only: status_t, fail, failed, status_numerical
-  use linalg_graph, only: block_matrix_t
-  use linalg_ldlt, only: ldlt_t
-  use linalg_solver, only: solve_whole
-  use model_data, only: model_t, curve_value, curve_slope, motion_velocity, &
-      motion_acceleration, motion_displacement
+  use base_status, only: status_t
+  use model_data, only: model_t, motion_velocity, motion_displacement
   use model_state, only: state_t
   use time_base, only: scheme_t, stage_t, mass_product
+  use time_start, only: start_acceleration
   implicit none
   private
 
@@ -33,9 +30,6 @@ module time_newmark
     procedure :: given_motion => newmark_given_motion
   end type newmark_t
 
-  !> A mass pivot below this share of its diagonal is round-off of a singular mass.
-  real(wp), parameter :: null_pivot = 1.0e-12_wp
-
 contains
 
   pure subroutine newmark_set_step(this, h)
@@ -49,60 +43,17 @@ contains
     this%dissipates = this%gamma > half .or. abs(this%beta - half*this%gamma) > zero
   end subroutine newmark_set_step
 
-  !> A0 from M A0 = P0 - K U0. Where the mass is singular the acceleration is zero, if the right
-  !> side allows it; else the start fails.
+  !> A0 from M A0 = P0 - K U0.
   subroutine newmark_start(this, model, system, state, status)
     class(newmark_t), intent(inout) :: this
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    type(ldlt_t) :: solver
-    type(block_matrix_t) :: matrix
-    real(wp), allocatable :: f(:, :), a(:, :)
-    real(wp) :: size_f
     allocate (this%d(2, system%n))
     if (this%dissipates) allocate (this%a_before(2, system%n))
-    allocate (f(2, system%n))
-    f = zero
-    call give_accelerations(model, state%a)
-    call multiply_mass(system, -one, state%a, f)
-    call add_loads(model, system, zero, one, f)
-    call subtract_internal_force(system, one, state%u, f)
-    call clear_fixed(system, f)
-    size_f = maxval(abs(f))
-    if (.not. size_f > zero) return
-    solver%options%null_pivot = null_pivot
-    call effective_matrix(system, one, zero, zero, matrix)
-    call solver%analyse(system%graph, [integer ::], status)
-    call solver%factor(system%graph, matrix, status)
-    if (failed(status)) return
-    allocate (a, mold=f)
-    call solve_whole(solver, f, a)
-    call multiply_mass(system, -one, a, f)
-    call clear_fixed(system, f)
-    if (maxval(abs(f)) > 1.0e-9_wp*size_f) &
-        call fail(status, status_numerical, 'NEWMARK cannot start: the mass '// &
-        trim(model%controls%mass)//' is singular and the loads at t = 0 act '// &
-        'where it is zero', hint='choose another mass, or SCHEME THETA')
-    state%a = state%a + a
+    call start_acceleration('NEWMARK', model, system, state, status)
   end subroutine newmark_start
-
-  !> Accelerations at t = 0 of dofs whose motion is prescribed from the start.
-  subroutine give_accelerations(model, a)
-    type(model_t), intent(in) :: model
-    real(wp), intent(inout) :: a(:, :)
-    real(wp) :: value
-    integer :: k
-    do k = 1, size(model%motion)
-      associate (m => model%motion(k))
-        if (m%birth > zero .or. m%kind == motion_displacement) cycle
-        value = m%factor*curve_value(model%curve(m%curve), zero)
-        if (m%kind == motion_velocity) value = m%factor*curve_slope(model%curve(m%curve), zero)
-        a(m%direction, m%node) = value
-      end associate
-    end do
-  end subroutine give_accelerations
 
   subroutine newmark_right_side(this, stage, system, state, b)
     class(newmark_t), intent(inout) :: this

@@ -5,6 +5,7 @@ module time_registry
   use base_status, only: status_t, fail, status_deck
   use deck_schemes, only: scheme_traits_t, traits_of
   use model_data, only: controls_t
+  use time_alpha, only: hht, generalised_alpha
   use time_base, only: scheme_t
   use time_newmark, only: newmark_t
   use time_theta, only: theta_t
@@ -25,6 +26,10 @@ contains
       allocate (scheme, source=theta_t(theta=controls%theta, xi=controls%xi))
     case ('NEWMARK')
       allocate (scheme, source=newmark_t(gamma=controls%gamma, beta=controls%beta))
+    case ('HHT')
+      allocate (scheme, source=hht(controls%alpha))
+    case ('GENALPHA')
+      allocate (scheme, source=generalised_alpha(controls%rho))
     case default
       call fail(status, status_deck, 'time scheme "'//trim(controls%scheme)// &
           '" is not available')

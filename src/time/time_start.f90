@@ -1,0 +1,76 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What schemes with accelerations need before their first step.
+module time_start
+  use assembly_forces, only: subtract_internal_force, add_loads
+  use assembly_system, only: system_t, multiply_mass, effective_matrix, clear_fixed
+  use base_kinds, only: wp, zero, one
+  use base_status, only: status_t, fail, failed, status_numerical
+  use linalg_graph, only: block_matrix_t
+  use linalg_ldlt, only: ldlt_t
+  use linalg_solver, only: solve_whole
+  use model_data, only: model_t, curve_value, curve_slope, motion_velocity, &
+      motion_displacement
+  use model_state, only: state_t
+  implicit none
+  private
+  public :: start_acceleration
+
+  !> A mass pivot below this share of its diagonal is round-off of a singular mass.
+  real(wp), parameter :: null_pivot = 1.0e-12_wp
+
+contains
+
+  !> A0 [L/T2] into state%a from M A0 = P0 - K U0. Where the mass is singular the acceleration is
+  !> zero, if the right side allows it; else it fails, naming the scheme.
+  subroutine start_acceleration(name, model, system, state, status)
+    character(*), intent(in) :: name
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(inout) :: state
+    type(status_t), intent(inout) :: status
+    type(ldlt_t) :: solver
+    type(block_matrix_t) :: matrix
+    real(wp), allocatable :: f(:, :), a(:, :)
+    real(wp) :: size_f
+    allocate (f(2, system%n))
+    f = zero
+    call give_accelerations(model, state%a)
+    call multiply_mass(system, -one, state%a, f)
+    call add_loads(model, system, zero, one, f)
+    call subtract_internal_force(system, one, state%u, f)
+    call clear_fixed(system, f)
+    size_f = maxval(abs(f))
+    if (.not. size_f > zero) return
+    solver%options%null_pivot = null_pivot
+    call effective_matrix(system, one, zero, zero, matrix)
+    call solver%analyse(system%graph, [integer ::], status)
+    call solver%factor(system%graph, matrix, status)
+    if (failed(status)) return
+    allocate (a, mold=f)
+    call solve_whole(solver, f, a)
+    call multiply_mass(system, -one, a, f)
+    call clear_fixed(system, f)
+    if (maxval(abs(f)) > 1.0e-9_wp*size_f) &
+        call fail(status, status_numerical, name//' cannot start: the mass '// &
+        trim(model%controls%mass)//' is singular and the loads at t = 0 act '// &
+        'where it is zero', hint='choose another mass, or SCHEME THETA')
+    state%a = state%a + a
+  end subroutine start_acceleration
+
+  !> Accelerations at t = 0 of dofs whose motion is prescribed from the start.
+  subroutine give_accelerations(model, a)
+    type(model_t), intent(in) :: model
+    real(wp), intent(inout) :: a(:, :)
+    real(wp) :: value
+    integer :: k
+    do k = 1, size(model%motion)
+      associate (m => model%motion(k))
+        if (m%birth > zero .or. m%kind == motion_displacement) cycle
+        value = m%factor*curve_value(model%curve(m%curve), zero)
+        if (m%kind == motion_velocity) value = m%factor*curve_slope(model%curve(m%curve), zero)
+        a(m%direction, m%node) = value
+      end associate
+    end do
+  end subroutine give_accelerations
+
+end module time_start
