@@ -57,6 +57,8 @@ DEFAULTS = dict(
     scheme="THETA",
     theta=0.5,
     xi=None,
+    alpha=-0.3,
+    rho=0.8,
     mass="CONSISTENT",
     redist=0,
     angle=0.0,
@@ -381,7 +383,8 @@ def named(o, name, value):
 
 def control_lines(o):
     """Time, scheme and mass; fields that the scheme does not use stay blank."""
-    newmark = o.scheme == "NEWMARK"
+    newmark, theta = o.scheme == "NEWMARK", o.scheme == "THETA"
+    genalpha = o.scheme == "GENALPHA"
     out = block(
         "*CONTROL_TERMINATION",
         "endtim endcyc dtmin endeng endmas",
@@ -397,13 +400,15 @@ def control_lines(o):
         "*CONTROL_IMPLICIT_DYNAMICS",
         "imass gamma beta tdybir tdydth tdybur irate alpha",
         1,
-        *((0.5, 0.25) if newmark else ())
+        *((0.5, 0.25) if newmark else ()),
+        *((None,) * 6 + (float(o.alpha),) if o.scheme == "HHT" else ())
     )
     out += block(
         "*BIPACT_TIME",
-        "scheme theta xi",
+        "scheme theta xi rest rhoinf",
         o.scheme,
-        *(() if newmark else (float(o.theta), None if o.xi is None else float(o.xi)))
+        *((float(o.theta), None if o.xi is None else float(o.xi)) if theta else ()),
+        *((None, None, None, float(o.rho)) if genalpha else ())
     )
     out += block("*BIPACT_MASS", "type redist courant", o.mass, o.redist or None)
     if o.ledger_every is not None:
@@ -672,7 +677,14 @@ def add_time_options(add):
         metavar="F",
         help="change the gap so that the touch is at fraction F of a step",
     )
-    add("--scheme", type=str.upper, choices=("THETA", "NEWMARK"), help="(THETA)")
+    add(
+        "--scheme",
+        type=str.upper,
+        choices=("THETA", "NEWMARK", "HHT", "GENALPHA", "PAOLI"),
+        help="(THETA)",
+    )
+    add("--alpha", type=float, help="of HHT (-0.3)")
+    add("--rho", type=float, help="of GENALPHA (0.8)")
     add("--theta", type=float, help="(0.5)")
     add("--xi", type=float, help="(theta)")
     add(

@@ -26,8 +26,9 @@ module contact_stage
 contains
 
   !> Reactions for the free motion x_free (2, m) of the interface from displacement u (2,
-  !> nodes) at the start of the step; force (2, m) = H' r. largest [F L]: of the terms of
-  !> the energy ledger so far. acting is false when nothing touches, and then force is zero.
+  !> nodes) at the start of the step; force (2, m) = H' r as A x = b + H' r takes it.
+  !> largest [F L]: of the terms of the energy ledger so far. acting is false when nothing
+  !> touches, and then force is zero.
   subroutine solve_contact(model, contact, u, x_free, largest, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -142,10 +143,11 @@ contains
     integer :: k
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
-        contact%r(:, k) = rows%r(1:contact%d, a)
+        contact%r(:, k) = contact%factor*rows%r(1:contact%d, a)
         if (.not. is_first) cycle
-        contact%r(:, k) = rows%r_previous(1:contact%d, a)
-        if (contact%alternates) contact%r(:, k) = rows%r_older(1:contact%d, a)
+        contact%r(:, k) = contact%factor*rows%r_previous(1:contact%d, a)
+        if (contact%alternates) &
+            contact%r(:, k) = contact%factor*rows%r_older(1:contact%d, a)
       end associate
     end do
   end subroutine start_reactions
@@ -185,10 +187,10 @@ contains
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
         rows%r(:, a) = zero    ! a frame that has turned may have left a tangential part
-        rows%r(1:contact%d, a) = contact%r(:, k)
+        rows%r(1:contact%d, a) = contact%r(:, k)/contact%factor
         rows%status(a) = contact%work%status(k)
         if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open
-        call add_row_force(rows, a, one, rows%slot, force)
+        call add_row_force(rows, a, contact%factor, rows%slot, force)
       end associate
     end do
     associate (tally => contact%tally)
@@ -222,7 +224,7 @@ contains
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
         contact%work%u(:, k) = rows%u(1:contact%d, a)
-        contact%r(:, k) = rows%r(1:contact%d, a)
+        contact%r(:, k) = contact%factor*rows%r(1:contact%d, a)
         if (-rows%u(1, a) > half*contact%penetration_tolerance*rows%length(a)) done = .false.
       end associate
     end do

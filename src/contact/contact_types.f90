@@ -39,6 +39,10 @@ module contact_types
     type(late_t), allocatable :: late(:)          !< rows to be added
     integer :: late_rounds = 0                    !< of this step
     logical :: keeps_before = .false.
+    !> Multiplier of H' in A x = b + H' r over the force that tables and works take.
+    real(wp) :: factor = 1.0_wp
+    !> r.dU of the step is friction and normal loss, each by its own formula
+    logical :: splits_work = .true.
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not

@@ -47,10 +47,10 @@ contains
         if (allocated(pairing%nodal)) call add_nodal(contact%rows, a, pairing%side, &
             pairing%nodal)
       end associate
-      if (weight_before > zero) then
-        call add_weighted_work(contact, contact%rows, a, weight_now, du, work)
-      else
+      if (contact%splits_work) then
         call add_implicit_work(contact, a, work)
+      else
+        call add_weighted_work(contact, contact%rows, a, weight_now, du, work)
       end if
     end do
     if (weight_before > zero) then

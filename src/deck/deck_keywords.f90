@@ -88,11 +88,11 @@ contains
         'inertia, and gamma and beta of NEWMARK', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'IMASS', 'I10 =0 >=0 <=1', &
-        '1 = with inertia; 0 (static) is not available')
+        '1 = with inertia; 0 = static, time is the load parameter')
     call add_field(table, 'GAMMA', 'R10 =0.5 0=d >=0.5 <=1', 'gamma of NEWMARK')
     call add_field(table, 'BETA', 'R10 =0.25 0=d >=0 <=1', &
         'beta of NEWMARK, at least (gamma+1/2)^2/4')
-    call add_field(table, 'TDYBIR', 'R10 fixed [T]')
+    call add_field(table, 'TDYBIR', 'R10 =0.0 [T] >=0', 'static up to this time')
     call add_field(table, 'TDYDTH', 'R10 fixed [T] =1.0E28 0=d')
     call add_field(table, 'TDYBUR', 'R10 fixed [T] =1.0E28 0=d')
     call add_field(table, 'IRATE', 'I10 fixed')

@@ -29,6 +29,13 @@ contains
     call add_field(table, 'RHOINF', 'R10 >=0 <=1', &
         'spectral radius at infinite frequency, of GENALPHA; blank = 0.8')
     call add_field(table, 'RULE', 'W10 fixed')
+    call add_field(table, 'PBETA', 'R10 fixed =0.25', 'beta of PAOLI')
+    call add_keyword(table, 'BIPACT_STATIC', 'statics of bodies held by contact alone', &
+        required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'SHIFT', 'R10 =1.0E-3 >0 <=1', 'of the passes, / (c/L)^2 M')
+    call add_field(table, 'MAXPASS', 'I10 =60 >0', 'most passes of a load step')
+    call add_field(table, 'RES', 'R10 =1.0E-10 >0 <=0.01', 'residual force / sum of the loads')
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'TYPE', 'W10 =CONSISTENT '//choices(mass_names), 'mass matrix')

@@ -147,6 +147,10 @@ module model_data
     real(wp) :: beta = 0.25_wp
     real(wp) :: alpha = 0.0_wp          !< of HHT
     real(wp) :: rho = 0.8_wp            !< of GENALPHA
+    logical :: is_static = .false.
+    real(wp) :: static_until = 0.0_wp   !< end of a static phase before dynamics [T]
+    real(wp) :: static_shift = 1.0e-3_wp, static_residual = 1.0e-10_wp
+    integer :: static_passes = 60
     character(10) :: mass = 'CONSISTENT'
     logical :: redistribute = .false.
     real(wp) :: courant = -1.0_wp       !< of DISPERSION; < 0 = from dt

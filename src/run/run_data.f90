@@ -76,6 +76,14 @@ module run_data
     real(wp), allocatable :: b_whole(:, :)                 !< b before it is cleared
     real(wp), allocatable :: reaction(:, :)                !< of the step just done [F]
     real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
+    ! Only in statics of bodies that supports do not hold.
+    real(wp), allocatable :: shift(:)                      !< (n) eps M [F/L]
+    real(wp), allocatable :: x_pass(:, :), move(:, :)      !< (2, n) last pass, its change [L]
+    real(wp), allocatable :: unbalanced(:, :)              !< (2, n) force left of the last step [F]
+    integer :: same_moves = 0                              !< passes in a row
+    logical :: starts_from_rest = .false.                  !< nothing is loaded before this step
+    integer :: static_steps = 0                            !< of the static phase
+    integer :: first_cycle = 0                             !< at which the scheme began
     integer :: factors = 0, analyses = 0, solves = 0
     real(wp) :: largest_motion = zero  !< of a node in the step just done [L]
     real(wp) :: rotation = zero        !< largest seen [radians]

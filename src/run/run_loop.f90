@@ -2,32 +2,31 @@
 !> The step loop.
 module run_loop
   use assembly_bending, only: look_at_bending
-  use assembly_forces, only: add_loads, largest_rotation, first_inverted, &
-      subtract_internal_force, subtract_damping_force
-  use assembly_system, only: clear_fixed, multiply_mass
-  use base_kinds, only: wp, zero, one
+  use assembly_forces, only: largest_rotation, first_inverted
+  use base_kinds, only: wp, zero, one, half
   use base_signal, only: stop_asked
   use base_status, only: status_t, fail, failed, add_place, status_numerical, status_stopped
-  use base_strings, only: to_text, join_path
-  use base_timers, only: phase_product, phase_solve, phase_search, phase_contact, &
-      phase_update, phase_energy, phase_output, phase_other
+  use base_strings, only: to_text
+  use base_timers, only: phase_search, phase_contact, phase_update, phase_energy, &
+      phase_output, phase_other
   use contact_monitor, only: check_all
   use contact_rows, only: copy_rows
   use contact_search, only: update_lists, relist_outrun
-  use contact_stage, only: solve_contact, correct_contact, settle_contact
+  use contact_stage, only: settle_contact
   use contact_work, only: add_contact_step, contact_work_t
-  use linalg_solver, only: solve_whole
-  use output_contact, only: write_contact_problem
   use output_tables, only: any_due, energies_due
   use run_data, only: run_t
   use run_frames, only: keep_frame
-  use run_motion, only: activate_motions, impose_motions, restore_motions, find_reactions
+  use run_motion, only: activate_motions, find_reactions
   use run_progress, only: progress_t, show_progress, clear_progress
   use run_restart, only: keep_restart, how_to_go_on
-  use run_setup, only: factor_matrix
+  use run_setup, only: factor_matrix, start_dynamics
+  use run_stage, only: solve_stage
+  use run_static, only: check_pass, unbalanced_work
+  use time_base, only: mass_product
   use run_tables, only: write_rows
   use run_warnings, only: notice_warnings
-  use time_ledger, only: evaluate_ledger, find_strain_energies, largest_work
+  use time_ledger, only: evaluate_ledger, find_strain_energies
   implicit none
   private
   public :: go_through_steps, advance
@@ -43,10 +42,14 @@ contains
     logical :: stopped
     steps = run%plan%full_steps
     if (run%plan%last_step > zero) steps = steps + 1
+    if (run%static_steps > 0 .and. .not. allocated(run%restarted)) &
+        call load_at_start(run, status)
     if (run%plan%restarts .and. .not. allocated(run%restarted)) &
         call keep_restart(run, .false., status)
     call tell(run, run%state%cycle == steps .or. failed(status), status)
     do while (run%state%cycle < steps .and. .not. failed(status))
+      if (run%state%cycle == run%static_steps .and. run%static_steps > 0) &
+          call end_static_phase(run, status)
       if (run%state%cycle == run%plan%full_steps) call cut_step(run, status)
       call advance(run, status)
       stopped = stop_asked()
@@ -67,18 +70,29 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     real(wp) :: t1
-    integer :: stage
-    logical :: acting, again
     t1 = merge(run%model%controls%end_time, (run%state%cycle + 1)*run%model%controls%dt, &
         run%state%cycle == run%plan%full_steps)
+    call advance_to(run, t1, status)
+  end subroutine advance
+
+  !> The step that ends at t1.
+  subroutine advance_to(run, t1, status)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: t1
+    type(status_t), intent(inout) :: status
+    integer :: stage
+    logical :: acting, again
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
+    call run%scheme%begin_step(run%state%cycle - run%first_cycle)
     do stage = 1, size(run%scheme%stage)
+      run%contact%factor = run%scheme%stage(stage)%contact_factor
       call solve_stage(run, stage, t1, acting, status)
       call check_finite(run, status)
       if (run%plan%contact) call look_back(run, again, status)
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
+      if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
       call swap(run%state%du, run%x)
@@ -88,7 +102,58 @@ contains
     run%state%h_last = run%scheme%h
     call account(run, acting, status)
     if (failed(status)) call add_place(status, moment(run))
-  end subroutine advance
+  end subroutine advance_to
+
+  !> Further passes of a load step whose bodies are not held by supports alone.
+  subroutine find_equilibrium(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    integer :: pass
+    logical :: is_done, again
+    pass = 1
+    run%x_pass = zero
+    run%move = zero
+    do
+      call check_pass(run, pass, is_done, status)
+      if (is_done .or. failed(status)) exit
+      pass = pass + 1
+      call solve_stage(run, stage, t1, acting, status)
+      call check_finite(run, status)
+      if (run%plan%contact) call look_back(run, again, status)
+      if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
+    end do
+    run%x_pass = zero
+  end subroutine find_equilibrium
+
+  !> Statics: loads that are not zero at t = 0 grow from nothing in a step of no length.
+  subroutine load_at_start(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    real(wp) :: h
+    h = run%scheme%h
+    call run%scheme%set_step(zero)
+    run%starts_from_rest = .true.
+    call advance_to(run, zero, status)
+    run%starts_from_rest = .false.
+    call run%scheme%set_step(h)
+    run%state%cycle = 0
+    run%ledger%evaluated = -1
+  end subroutine load_at_start
+
+  !> The scheme of the deck takes over; the energy of the initial velocities counts from now on.
+  subroutine end_static_phase(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call start_dynamics(run, status)
+    run%first_cycle = run%state%cycle
+    run%ledger%staggered = run%scheme%staggered
+    run%ledger%evaluated = -1
+    run%ledger%initial = run%ledger%initial &
+        + half*mass_product(run%system, run%state%v, run%state%v)
+  end subroutine end_static_phase
 
   !> The stage once more, with longer lists.
   subroutine solve_again(run, stage, t1, acting, status)
@@ -100,95 +165,6 @@ contains
     call solve_stage(run, stage, t1, acting, status)
     call check_finite(run, status)
   end subroutine solve_again
-
-  !> The motion x of a stage, with contact.
-  subroutine solve_stage(run, stage, t1, acting, status)
-    type(run_t), intent(inout) :: run
-    integer, intent(in) :: stage
-    real(wp), intent(in) :: t1
-    logical, intent(out) :: acting
-    type(status_t), intent(inout) :: status
-    acting = .false.
-    call run%timers%enter(phase_product)
-    run%b = zero
-    if (run%plan%loads) call weigh_loads(run, stage, t1)
-    call run%scheme%right_side(stage, run%system, run%state, run%b)
-    call subtract_internal_force(run%system, run%scheme%stage(stage)%force_weight, &
-        run%state%u, run%b)
-    call hold_dofs(run, stage, t1)
-    call run%timers%enter(phase_solve)
-    call run%solver%forward(run%b, run%b_last)
-    run%x_last = run%b_last
-    call run%solver%solve_last(run%x_last)
-    if (run%plan%contact) call add_contact(run, acting, status)
-    call run%solver%backward(run%x_last, run%x)
-    run%solves = run%solves + 1
-    if (run%state%cycle >= run%plan%refined_from) call refine(run, stage, acting, status)
-    if (run%plan%motions) call restore_motions(run)
-  end subroutine solve_stage
-
-  !> Corrects x where the effective matrix is stiff; with contact also the reactions, until they
-  !> meet their certificate for the motion as it is. Each pass gains the digits that the factor
-  !> has, so two are enough, or none would be.
-  subroutine refine(run, stage, acting, status)
-    type(run_t), intent(inout) :: run
-    integer, intent(in) :: stage
-    logical, intent(inout) :: acting
-    type(status_t), intent(inout) :: status
-    integer, parameter :: most_passes = 3
-    integer :: pass
-    logical :: done
-    run%b_kept = run%b
-    if (run%plan%motions) run%b_kept = run%b_whole
-    call refine_motion(run, stage)
-    if (.not. run%plan%contact) return
-    do pass = 1, most_passes
-      call run%timers%enter(phase_contact)
-      call correct_contact(run%model, run%contact, run%x, run%force, run%x_last, done, &
-          acting, status)
-      if (done) return
-      run%b = zero
-      call add_interface_forces(run, run%x_last)
-      call add_correction(run)
-      call refine_motion(run, stage)
-    end do
-  end subroutine refine
-
-  !> One correction of x: the residual b + H' r - A x from the mass and the element strains,
-  !> solved with the same factor (Wilkinson 1963).
-  subroutine refine_motion(run, stage)
-    type(run_t), intent(inout) :: run
-    integer, intent(in) :: stage
-    call run%timers%enter(phase_product)
-    run%b = run%b_kept
-    call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
-    call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
-    call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
-    if (run%plan%contact) call add_interface_forces(run, run%force)
-    call add_correction(run)
-  end subroutine refine_motion
-
-  !> Adds forces of the interface (2, m) to b.
-  pure subroutine add_interface_forces(run, force)
-    type(run_t), intent(inout) :: run
-    real(wp), intent(in) :: force(:, :)
-    integer :: k
-    do k = 1, size(run%contact%interface_node)
-      associate (i => run%contact%interface_node(k))
-        run%b(:, i) = run%b(:, i) + force(:, k)
-      end associate
-    end do
-  end subroutine add_interface_forces
-
-  !> x = x + A^-1 b, held dofs kept.
-  subroutine add_correction(run)
-    type(run_t), intent(inout) :: run
-    if (run%system%any_fixed) call clear_fixed(run%system, run%b)
-    call run%timers%enter(phase_solve)
-    call solve_whole(run%solver, run%b, run%correction)
-    run%x = run%x + run%correction
-    run%solves = run%solves + 1
-  end subroutine add_correction
 
   !> The step and its time, for messages.
   function moment(run) result(text)
@@ -216,19 +192,6 @@ contains
     if (changed) call factor_matrix(run, .false., status)
   end subroutine prepare_motions
 
-  !> Supports and prescribed motions in the right-hand side.
-  subroutine hold_dofs(run, stage, t1)
-    type(run_t), intent(inout) :: run
-    integer, intent(in) :: stage
-    real(wp), intent(in) :: t1
-    if (run%plan%reactions) run%b_whole = run%b
-    if (run%plan%motions) then
-      call impose_motions(run, stage, t1)
-    else if (run%system%any_fixed) then
-      call clear_fixed(run%system, run%b)
-    end if
-  end subroutine hold_dofs
-
   !> Lists for the step; a larger interface means another elimination order.
   subroutine prepare_contact(run, t1, status)
     type(run_t), intent(inout) :: run
@@ -254,63 +217,6 @@ contains
         run%state%v, run%scheme%h, run%state%cycle, again, new_interface, status)
     if (new_interface) call factor_matrix(run, .true., status)
   end subroutine look_back
-
-  !> Contact on the interface: reactions for the free motion x_last, then the motion with them.
-  subroutine add_contact(run, acting, status)
-    type(run_t), intent(inout) :: run
-    logical, intent(inout) :: acting
-    type(status_t), intent(inout) :: status
-    run%force = zero
-    if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
-    call run%timers%enter(phase_contact)
-    call solve_contact(run%model, run%contact, run%state%u, run%x_last, &
-        largest_work(run%ledger), run%force, acting, status)
-    if (run%plan%dump .and. acting) call dump_contact(run, status)
-    call run%timers%enter(phase_solve)
-    if (.not. acting) return
-    call clear_constrained_forces(run)
-    run%x_last = run%b_last + run%force
-    call run%solver%solve_last(run%x_last)
-  end subroutine add_contact
-
-  !> The contact problem of the step as a file, where the deck asks for it.
-  subroutine dump_contact(run, status)
-    type(run_t), intent(in) :: run
-    type(status_t), intent(inout) :: status
-    character(24) :: name
-    integer :: step
-    step = run%state%cycle + 1
-    associate (c => run%model%controls, p => run%contact)
-      if (step < c%dump_first .or. step > c%dump_last) return
-      if (mod(step - c%dump_first, c%dump_every) /= 0) return
-      write (name, '(a,i9.9,a)') 'contact_', step, '.txt'
-      call write_contact_problem(join_path(run%folder, trim(name)), 'step '//to_text(step), &
-          p%w%matrix, p%q, p%mu, p%r, status)
-    end associate
-  end subroutine dump_contact
-
-  subroutine clear_constrained_forces(run)
-    type(run_t), intent(inout) :: run
-    integer :: k, row
-    do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%slot(run%system%fixed_list(2, k))
-      if (row > 0) run%force(run%system%fixed_list(1, k), row) = zero
-    end do
-  end subroutine clear_constrained_forces
-
-  !> Loads at both ends of the step, and their weighted sum into b.
-  subroutine weigh_loads(run, stage, t1)
-    type(run_t), intent(inout) :: run
-    integer, intent(in) :: stage
-    real(wp), intent(in) :: t1
-    run%load_0 = zero
-    run%load_1 = zero
-    call add_loads(run%model, run%system, run%state%time, one, run%load_0)
-    call add_loads(run%model, run%system, t1, one, run%load_1)
-    associate (weight => run%scheme%stage(stage)%load_weight)
-      run%b = weight(1)*run%load_0 + weight(2)*run%load_1
-    end associate
-  end subroutine weigh_loads
 
   !> The largest motion x of a node in the step; NaN or infinity is a failure.
   subroutine check_finite(run, status)
@@ -349,12 +255,20 @@ contains
     type(status_t), intent(inout) :: status
     real(wp) :: work
     call run%timers%enter(phase_energy)
-    if (run%plan%loads) run%ledger%external = run%ledger%external &
-        + sum(run%state%du*(run%scheme%load_work_weight(1)*run%load_0 &
-        + run%scheme%load_work_weight(2)*run%load_1))
+    if (run%plan%loads) then
+      if (allocated(run%scheme%conjugate)) then
+        run%ledger%external = run%ledger%external + load_work(run, run%scheme%conjugate)
+      else
+        run%ledger%external = run%ledger%external + load_work(run, run%state%du)
+      end if
+    end if
     if (run%plan%reactions) then
       call find_reactions(run, work)
       run%ledger%motion = run%ledger%motion + work
+    end if
+    if (allocated(run%shift)) then
+      call unbalanced_work(run, work)
+      run%ledger%contact%unsolved = run%ledger%contact%unsolved + work
     end if
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
         + run%scheme%dissipation(run%system, run%state)
@@ -363,9 +277,22 @@ contains
     call run%timers%enter(phase_contact)
     call settle_contact(run%model, run%contact, run%state%u, run%state%du, run%state%cycle, &
         acting, status)
-    call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
-        run%scheme%h, run%state%du, run%ledger%contact)
+    if (allocated(run%scheme%conjugate)) then
+      call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
+          run%scheme%h, run%scheme%conjugate, run%ledger%contact)
+    else
+      call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
+          run%scheme%h, run%state%du, run%ledger%contact)
+    end if
   end subroutine account
+
+  !> Work of the loads on a motion (2, n) [F L].
+  pure real(wp) function load_work(run, motion)
+    type(run_t), intent(in) :: run
+    real(wp), intent(in) :: motion(:, :)
+    load_work = sum(motion*(run%scheme%load_work_weight(1)*run%load_0 &
+        + run%scheme%load_work_weight(2)*run%load_1))
+  end function load_work
 
   !> Rows that are due, and what must be watched at such times.
   subroutine tell(run, last, status)

@@ -8,6 +8,7 @@ module run_motion
   use contact_work, only: subtract_contact_force
   use model_data, only: motion_t, curve_value
   use run_data, only: run_t
+  use run_static, only: add_shift
   implicit none
   private
   public :: activate_motions, hold_active, impose_motions, restore_motions, &
@@ -100,6 +101,7 @@ contains
       call subtract_internal_force(run%system, s%c_k, x, b)
       call subtract_damping_force(run%system, s%c_c, x, b)
     end associate
+    if (allocated(run%shift)) call add_shift(run%shift, -x, b)
   end subroutine subtract_product
 
   !> Reactions of a state [F], M A + K U - P - H' r, for schemes that weigh forces of both ends
@@ -123,11 +125,16 @@ contains
     real(wp), intent(out) :: motion_work
     run%b = run%b_whole
     call subtract_product(run, size(run%scheme%stage), run%state%du, run%b)
-    call subtract_contact_force(run%contact, -one, run%b)
+    call subtract_contact_force(run%contact, -run%contact%factor, run%b)
     run%mean_reaction = run%scheme%weight_before*run%reaction
+    if (run%contact%factor < one) run%b = run%b/run%contact%factor
     call take_held(run, run%b)
     run%mean_reaction = run%mean_reaction + run%scheme%weight_now*run%reaction
-    motion_work = sum(run%state%du*run%mean_reaction)
+    if (allocated(run%scheme%conjugate)) then
+      motion_work = sum(run%scheme%conjugate*run%mean_reaction)
+    else
+      motion_work = sum(run%state%du*run%mean_reaction)
+    end if
   end subroutine find_reactions
 
   !> reaction = - misfit on the held dofs, zero elsewhere.

@@ -3,7 +3,7 @@
 module run_setup
   use assembly_bending, only: make_bending
   use assembly_system, only: make_system, effective_matrix, stiffness_ratio
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
@@ -14,16 +14,18 @@ module run_setup
   use deck_reader, only: read_deck
   use base_strings, only: to_text
   use linalg_registry, only: make_solver
-  use model_state, only: make_state
+  use model_data, only: controls_t
+  use model_state, only: state_t, make_state
   use run_data, only: run_t
   use run_motion, only: activate_motions, start_reactions
   use run_plan, only: make_plan, add_feature
+  use run_static, only: make_shift
   use scene_model, only: make_scene
   use time_ledger, only: make_ledger
   use time_registry, only: make_scheme
   implicit none
   private
-  public :: read_scene, set_up, factor_matrix
+  public :: read_scene, set_up, factor_matrix, start_dynamics
 
   !> About a Courant number of 10.
   real(wp), parameter :: refinement_ratio = 200.0_wp
@@ -65,14 +67,23 @@ contains
     end if
     call make_system(run%model, massless, run%system, status)
     if (failed(status)) return
-    call make_scheme(run%model%controls, run%scheme, status)
+    run%static_steps = static_steps(run%model%controls, run%plan%full_steps)
+    call make_scheme(run%model%controls, run%static_steps > 0, run%scheme, status)
     if (failed(status)) return
+    if (run%static_steps > 0) call make_shift(run%model, run%system, run%shift, &
+        run%model%controls%static_shift)
+    if (allocated(run%shift)) then
+      allocate (run%x_pass(2, run%system%n), run%move(2, run%system%n))
+      allocate (run%unbalanced(2, run%system%n), source=zero)
+      run%x_pass = zero
+    end if
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
     call make_motions(run)
     call run%scheme%start(run%model, run%system, run%state, status)
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
+    run%ledger%staggered = run%scheme%staggered
     call make_bending(run%model, run%bending)
     if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
         'the initial energy is no finite number', hint='check units and initial velocities')
@@ -88,6 +99,15 @@ contains
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
+
+  !> Steps of the static phase: all, those up to TDYBIR, or none.
+  pure integer function static_steps(controls, steps)
+    type(controls_t), intent(in) :: controls
+    integer, intent(in) :: steps
+    static_steps = 0
+    if (controls%is_static) static_steps = steps + 1
+    if (controls%static_until > zero) static_steps = nint(controls%static_until/controls%dt)
+  end function static_steps
 
   !> Work space of prescribed motions and reactions; the dofs that are held from the start.
   subroutine make_motions(run)
@@ -116,12 +136,16 @@ contains
     !> Of a free body, measured: 1 to 2.4 for the momentum, twice that for the energy.
     real(wp), parameter :: factor = 5.0_wp*epsilon(zero)
     real(wp) :: ratio, steps
-    ratio = stiffness_ratio(run%system, run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k)
-    steps = min(real(huge(1), wp), largest_drift/max(factor*ratio, tiny(ratio)))
-    if (ratio > refinement_ratio) steps = zero
+    ratio = huge(zero)
+    if (run%scheme%stage(1)%c_m > zero) ratio = stiffness_ratio(run%system, &
+        run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k)
+    steps = zero
+    if (ratio <= refinement_ratio) &
+        steps = min(real(huge(1), wp), largest_drift/max(factor*ratio, tiny(ratio)))
     run%plan%refined_from = int(steps)
     run%plan%refinement = run%plan%refined_from < run%plan%full_steps + &
         merge(1, 0, run%plan%last_step > zero)
+    if (allocated(run%correction)) return
     call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
         to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio)// &
         '; after '//to_text(run%plan%refined_from)//' steps, when the drift may pass '// &
@@ -136,8 +160,10 @@ contains
     type(run_t), intent(inout) :: run
     integer :: p
     run%contact%keeps_before = run%scheme%weight_before > zero
+    run%contact%splits_work = .not. run%contact%keeps_before &
+        .and. .not. run%scheme%staggered%on
     do p = 1, size(run%contact%pairing)
-      run%contact%pairing(p)%item%is_energy_safe = .not. run%contact%keeps_before
+      run%contact%pairing(p)%item%is_energy_safe = run%contact%splits_work
     end do
   end subroutine set_contact_rule
 
@@ -165,6 +191,7 @@ contains
     associate (stage => run%scheme%stage(1))
       call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_k, run%matrix)
     end associate
+    if (allocated(run%shift)) call shift_matrix(run)
     m = size(run%contact%interface_node)
     if (again) then
       call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
@@ -179,6 +206,34 @@ contains
     run%factors = run%factors + 1
     if (m > 0) call interface_flexibility(run)
   end subroutine factor_matrix
+
+  subroutine shift_matrix(run)
+    type(run_t), intent(inout) :: run
+    integer :: i, k
+    do i = 1, run%system%n
+      k = run%system%graph%position(i, i)
+      run%matrix%value(1, 1, k) = run%matrix%value(1, 1, k) + run%shift(i)
+      run%matrix%value(2, 2, k) = run%matrix%value(2, 2, k) + run%shift(i)
+    end do
+  end subroutine shift_matrix
+
+  !> From the static phase to dynamics: the scheme of the deck begins at the displacements and
+  !> reactions as they are, with the initial velocities of the deck.
+  subroutine start_dynamics(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    type(state_t) :: none
+    call make_scheme(run%model%controls, .false., run%scheme, status)
+    if (run%plan%contact) call set_contact_rule(run)
+    if (run%scheme%has_acceleration .and. .not. allocated(run%state%a)) then
+      call make_state(run%model%v0, .true., none)
+      call move_alloc(none%a, run%state%a)
+    end if
+    if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
+    run%state%v = run%model%v0
+    call factor_matrix(run, .false., status)
+    call plan_refinement(run)
+  end subroutine start_dynamics
 
   !> S^-1 of the interface; fixed dofs do not move, whatever the force.
   subroutine interface_flexibility(run)

@@ -46,11 +46,19 @@ contains
         if (deck%integer(r, 'IMFLAG') /= 1) call deck%complain(r, 'IMFLAG', &
             'expected 1: explicit integration is not available in this version')
       end if
-      r = required(deck, 'CONTROL_IMPLICIT_DYNAMICS', &
-          ' with IMASS 1: static analysis is not available in this version')
+      r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
+      controls%is_static = r == 0
       if (r > 0) call read_dynamics(deck, controls, r)
-      call read_scheme(deck, controls)
-      call read_mass(deck, controls)
+      if (r == 0) call add_note(deck%problems, 'no *CONTROL_IMPLICIT_DYNAMICS: the analysis '// &
+          'is static')
+      if (controls%is_static) then
+        call refuse_dynamic(deck, 'BIPACT_TIME', 'SCHEME')
+        call refuse_dynamic(deck, 'BIPACT_MASS', 'TYPE')
+      else
+        call read_scheme(deck, controls)
+        call read_mass(deck, controls)
+      end if
+      call read_static(deck, controls)
       call check_steps(deck, controls)
       r = deck%next('BIPACT_LEDGER', 1, 0)
       if (r == 0) return
@@ -83,10 +91,17 @@ contains
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
     integer, intent(in) :: r
+    real(wp) :: rest
+    integer :: steps
     controls%gamma = deck%real(r, 'GAMMA')
     controls%beta = deck%real(r, 'BETA')
-    if (deck%integer(r, 'IMASS') /= 1) call deck%complain(r, 'IMASS', &
-        'expected 1: static analysis is not available in this version')
+    controls%is_static = deck%integer(r, 'IMASS') == 0
+    if (.not. controls%is_static) controls%static_until = deck%real(r, 'TDYBIR')
+    if (controls%static_until > zero) then
+      call count_steps(controls%static_until, controls%dt, steps, rest)
+      if (rest > zero) call deck%complain(r, 'TDYBIR', &
+          'expected a whole number of steps DT0 in the static phase')
+    end if
     controls%alpha = deck%real(r, 'ALPHA')
     if (controls%alpha < -one/3.0_wp) call deck%complain(r, 'ALPHA', &
         'expected a number from -1/3 to below 0: alpha of HHT')
@@ -94,6 +109,27 @@ contains
         'expected BETA >= (GAMMA + 1/2)^2/4, the bound of unconditional stability', &
         'use GAMMA 0.5 with BETA 0.25')
   end subroutine read_dynamics
+
+  !> Cards of inertia have no place in a static analysis.
+  subroutine refuse_dynamic(deck, keyword, field)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: keyword, field
+    integer :: r
+    r = deck%next(keyword, 1, 0)
+    if (r > 0) call deck%complain(r, field, '*'//keyword//' has no place in a static analysis '// &
+        '(IMASS 0 of *CONTROL_IMPLICIT_DYNAMICS): remove it')
+  end subroutine refuse_dynamic
+
+  subroutine read_static(deck, controls)
+    type(deck_t), intent(in) :: deck
+    type(controls_t), intent(inout) :: controls
+    integer :: r
+    r = deck%next('BIPACT_STATIC', 1, 0)
+    if (r == 0) return
+    controls%static_shift = deck%real(r, 'SHIFT')
+    controls%static_passes = deck%integer(r, 'MAXPASS')
+    controls%static_residual = deck%real(r, 'RES')
+  end subroutine read_static
 
   !> *BIPACT_TIME. Without it: THETA where there is contact and the deck gives neither GAMMA nor
   !> BETA, else NEWMARK.

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> HHT (Hilber, Hughes & Taylor 1977) and the generalised alpha-method (Chung & Hulbert 1993).
 !>   M [(1 - am) A1 + am A0] + K [(1 - af) U1 + af U0] = (1 - af) P1 + af P0 + R1,
-!> U1, V1 by Newmark with gamma = 1/2 - am + af, beta = (gamma + 1/2)^2/4. The contact force R1
-!> is NOT averaged like the loads: it acts with weight 1, else the schemes gain energy on impact.
+!> U1, V1 by Newmark with gamma = 1/2 - am + af, beta = (gamma + 1/2)^2/4. The contact force
+!> R1 is NOT averaged like the loads: it acts with weight 1, else the schemes gain energy on
+!> impact.
 !> One stage: [k M + (1 - af) K] x = M (k D - am A0) - K U0 + (1 - af) P1 + af P0 + R1 with
 !> k = (1 - am)/(beta h^2), D = h V0 + h^2 (1/2 - beta) A0. At am = af = 1/2 (rho = 1) it is the
 !> theta-method at theta = xi = 1/2.
@@ -91,7 +92,7 @@ contains
   subroutine alpha_update(this, stage, x, state)
     class(alpha_t), intent(inout) :: this
     integer, intent(in) :: stage
-    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: x(:, :)
     type(state_t), intent(inout) :: state
     real(wp) :: d, a1
     integer :: i, k

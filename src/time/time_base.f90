@@ -10,8 +10,11 @@ module time_base
   use model_state, only: state_t
   implicit none
   private
-  !> Contact on positions: x = U1 - U0, u_n = gap at the end, u_t = slip of the step, r = force.
-  integer, parameter, public :: level_position = 1
+  !> Weights of the internal energy of a scheme whose energy is that of the middle of a step.
+  type, public :: staggered_t
+    logical :: on = .false.
+    real(wp) :: share = zero   !< internal = Um.K Um/2 + share dU.K dU/2, Um = U1 - dU/2
+  end type staggered_t
 
   !> One solve of a step: A x = b + H' r with A = cM M + cC C + cK K and
   !> b = (inertia, by the scheme) + load_weight(1) P0 + load_weight(2) P1
@@ -20,7 +23,7 @@ module time_base
     real(wp) :: c_m = zero   !< [1/T2]
     real(wp) :: c_c = zero   !< on the layer of massless nodes
     real(wp) :: c_k = zero
-    integer :: level = level_position
+    real(wp) :: contact_factor = one         !< of the contact force in A x = b + factor H' r
     real(wp) :: load_weight(2) = [zero, one]
     real(wp) :: force_weight = one
     real(wp) :: force_lead = zero            !< [T]
@@ -38,7 +41,11 @@ module time_base
     real(wp) :: load_work_weight(2) = [zero, one]
     !> True when the scheme has damping of its own to be accounted for.
     logical :: dissipates = .false.
+    type(staggered_t) :: staggered
+    !> (2, n) motion on which forces do work, only where it is not that of the step [L]
+    real(wp), allocatable :: conjugate(:, :)
   contains
+    procedure :: begin_step => nothing_to_begin
     procedure(set_step_i), deferred :: set_step
     procedure(start_i), deferred :: start
     procedure(right_side_i), deferred :: right_side
@@ -72,12 +79,13 @@ module time_base
       type(state_t), intent(in) :: state
       real(wp), intent(inout) :: b(:, :)
     end subroutine right_side_i
-    !> State at the end of a stage from its motion x, which becomes state%du.
+    !> State at the end of a stage from its unknown x (2, n), which becomes the motion of the
+    !> step, U1 - U0.
     subroutine update_i(this, stage, x, state)
       import :: scheme_t, state_t, wp
       class(scheme_t), intent(inout) :: this
       integer, intent(in) :: stage
-      real(wp), intent(in) :: x(:, :)
+      real(wp), intent(inout) :: x(:, :)
       type(state_t), intent(inout) :: state
     end subroutine update_i
     !> Energy that the scheme itself takes out in the step just done [F L]; only called when
@@ -88,7 +96,7 @@ module time_base
       type(system_t), intent(in) :: system
       type(state_t), intent(in) :: state
     end function dissipation_i
-    !> Motion of the step [L] of one dof that ends with a given displacement, velocity or
+    !> Unknown x of one dof that ends the step with a given displacement, velocity or
     !> acceleration (kind: motion_... of model_data), by the scheme's own update.
     pure real(wp) function given_motion_i(this, state, direction, node, kind, value)
       import :: scheme_t, state_t, wp
@@ -102,6 +110,12 @@ module time_base
   public :: mass_product
 
 contains
+
+  !> Most schemes do the same in every step. cycle: number of steps done.
+  subroutine nothing_to_begin(this, cycle)
+    class(scheme_t), intent(inout) :: this
+    integer, intent(in) :: cycle
+  end subroutine nothing_to_begin
 
   !> x.M y [F L for velocities].
   real(wp) function mass_product(system, x, y)

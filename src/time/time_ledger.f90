@@ -9,6 +9,7 @@ module time_ledger
   use contact_work, only: contact_work_t
   use model_data, only: model_t, corner_count
   use model_state, only: state_t
+  use time_base, only: staggered_t
   implicit none
   private
 
@@ -25,6 +26,7 @@ module time_ledger
     real(wp) :: momentum(2) = zero
     real(wp) :: angular = zero       !< about the origin, reference positions
     integer :: evaluated = -1        !< cycle of the last evaluation
+    type(staggered_t) :: staggered   !< of the scheme
     ! Growth: the balance total - external - motion must not rise above its minimum so far.
     real(wp) :: lowest = huge(1.0_wp)
     integer :: growths = 0
@@ -123,7 +125,7 @@ contains
     ledger%evaluated = state%cycle
     ledger%mv = zero
     call multiply_mass(system, one, state%v, ledger%mv)
-    call strain_energies(system, model%element_part, state%u, ledger%part_internal)
+    call find_internal(model, system, state, ledger)
     ledger%part_kinetic = zero
     ledger%part_momentum = zero
     moment = zero
@@ -150,8 +152,27 @@ contains
     type(state_t), intent(in) :: state
     type(ledger_t), intent(inout) :: ledger
     if (ledger%evaluated == state%cycle) return
-    call strain_energies(system, model%element_part, state%u, ledger%part_internal)
+    call find_internal(model, system, state, ledger)
   end subroutine find_strain_energies
+
+  !> Strain energy of each part; of a staggered scheme Um.K Um/2 + share dU.K dU/2 at the middle
+  !> of the step just done.
+  subroutine find_internal(model, system, state, ledger)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    type(ledger_t), intent(inout) :: ledger
+    real(wp) :: middle(2, merge(model%nodes, 0, ledger%staggered%on))
+    real(wp) :: rest(size(ledger%part_internal))
+    if (.not. ledger%staggered%on) then
+      call strain_energies(system, model%element_part, state%u, ledger%part_internal)
+      return
+    end if
+    middle = state%u - half*state%du
+    call strain_energies(system, model%element_part, middle, ledger%part_internal)
+    call strain_energies(system, model%element_part, state%du, rest)
+    ledger%part_internal = ledger%part_internal + ledger%staggered%share*rest
+  end subroutine find_internal
 
   !> A share of the momentum and kinetic energy of node i to a part.
   pure subroutine add_node(ledger, part, share, v, i)

@@ -69,7 +69,7 @@ contains
   subroutine newmark_update(this, stage, x, state)
     class(newmark_t), intent(inout) :: this
     integer, intent(in) :: stage
-    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: x(:, :)
     type(state_t), intent(inout) :: state
     real(wp) :: a1
     integer :: i, k

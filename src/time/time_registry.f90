@@ -7,6 +7,8 @@ module time_registry
   use model_data, only: controls_t
   use time_alpha, only: hht, generalised_alpha
   use time_base, only: scheme_t
+  use time_paoli, only: paoli_t
+  use time_static, only: static_t
   use time_newmark, only: newmark_t
   use time_theta, only: theta_t
   implicit none
@@ -15,12 +17,18 @@ module time_registry
 
 contains
 
-  !> The scheme that the deck asks for, ready for steps of length dt.
-  subroutine make_scheme(controls, scheme, status)
+  !> The scheme that the deck asks for, or that of a static phase, ready for steps of length dt.
+  subroutine make_scheme(controls, is_static, scheme, status)
     type(controls_t), intent(in) :: controls
+    logical, intent(in) :: is_static
     class(scheme_t), allocatable, intent(out) :: scheme
     type(status_t), intent(inout) :: status
     type(scheme_traits_t) :: traits
+    if (is_static) then
+      allocate (static_t :: scheme)
+      call scheme%set_step(controls%dt)
+      return
+    end if
     select case (trim(controls%scheme))
     case ('THETA')
       allocate (scheme, source=theta_t(theta=controls%theta, xi=controls%xi))
@@ -30,6 +38,8 @@ contains
       allocate (scheme, source=hht(controls%alpha))
     case ('GENALPHA')
       allocate (scheme, source=generalised_alpha(controls%rho))
+    case ('PAOLI')
+      allocate (paoli_t :: scheme)
     case default
       call fail(status, status_deck, 'time scheme "'//trim(controls%scheme)// &
           '" is not available')

@@ -73,7 +73,7 @@ contains
   subroutine theta_update(this, stage, x, state)
     class(theta_t), intent(inout) :: this
     integer, intent(in) :: stage
-    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: x(:, :)
     type(state_t), intent(inout) :: state
     real(wp) :: keep, gain
     keep = one - one/this%theta

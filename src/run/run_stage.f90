@@ -1,0 +1,199 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> One stage of a step: the right-hand side, the free motion, contact on its interface, the
+!> whole motion, and its correction where the effective matrix is stiff.
+module run_stage
+  use assembly_forces, only: add_loads, subtract_internal_force, subtract_damping_force
+  use assembly_system, only: clear_fixed, multiply_mass
+  use base_kinds, only: wp, zero, one
+  use base_status, only: status_t
+  use base_strings, only: to_text, join_path
+  use base_timers, only: phase_product, phase_solve, phase_contact
+  use contact_stage, only: solve_contact, correct_contact
+  use linalg_solver, only: solve_whole
+  use output_contact, only: write_contact_problem
+  use run_data, only: run_t
+  use run_motion, only: impose_motions, restore_motions
+  use run_static, only: add_shift
+  use time_ledger, only: largest_work
+  implicit none
+  private
+  public :: solve_stage
+
+contains
+
+  !> The motion x of a stage, with contact.
+  subroutine solve_stage(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(out) :: acting
+    type(status_t), intent(inout) :: status
+    acting = .false.
+    call run%timers%enter(phase_product)
+    run%b = zero
+    if (run%plan%loads) call weigh_loads(run, stage, t1)
+    call run%scheme%right_side(stage, run%system, run%state, run%b)
+    call subtract_forces(run, stage)
+    if (allocated(run%shift)) call add_shift(run%shift, run%x_pass, run%b)
+    call hold_dofs(run, stage, t1)
+    call run%timers%enter(phase_solve)
+    call run%solver%forward(run%b, run%b_last)
+    run%x_last = run%b_last
+    call run%solver%solve_last(run%x_last)
+    if (run%plan%contact) call add_contact(run, acting, status)
+    call run%solver%backward(run%x_last, run%x)
+    run%solves = run%solves + 1
+    if (run%state%cycle >= run%plan%refined_from) call refine(run, stage, acting, status)
+    if (run%plan%motions) call restore_motions(run)
+  end subroutine solve_stage
+
+  !> b = b - force_weight K (U0 + force_lead V0).
+  subroutine subtract_forces(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    associate (s => run%scheme%stage(stage))
+      if (abs(s%force_lead) > zero) then
+        run%x = run%state%u + s%force_lead*run%state%v
+        call subtract_internal_force(run%system, s%force_weight, run%x, run%b)
+      else
+        call subtract_internal_force(run%system, s%force_weight, run%state%u, run%b)
+      end if
+    end associate
+  end subroutine subtract_forces
+
+  !> Corrects x where the effective matrix is stiff; with contact also the reactions, until they
+  !> meet their certificate for the motion as it is. Each pass gains the digits that the factor
+  !> has, so two are enough, or none would be.
+  subroutine refine(run, stage, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    integer, parameter :: most_passes = 3
+    integer :: pass
+    logical :: done
+    run%b_kept = run%b
+    if (run%plan%motions) run%b_kept = run%b_whole
+    call refine_motion(run, stage)
+    if (.not. run%plan%contact) return
+    do pass = 1, most_passes
+      call run%timers%enter(phase_contact)
+      call correct_contact(run%model, run%contact, run%x, run%force, run%x_last, done, &
+          acting, status)
+      if (done) return
+      run%b = zero
+      call add_interface_forces(run, run%x_last)
+      call add_correction(run)
+      call refine_motion(run, stage)
+    end do
+  end subroutine refine
+
+  !> One correction of x: the residual b + H' r - A x from the mass and the element strains,
+  !> solved with the same factor (Wilkinson 1963).
+  subroutine refine_motion(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    call run%timers%enter(phase_product)
+    run%b = run%b_kept
+    call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
+    call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
+    call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
+    if (allocated(run%shift)) call add_shift(run%shift, -run%x, run%b)
+    if (run%plan%contact) call add_interface_forces(run, run%force)
+    call add_correction(run)
+  end subroutine refine_motion
+
+  !> Adds forces of the interface (2, m) to b.
+  pure subroutine add_interface_forces(run, force)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: force(:, :)
+    integer :: k
+    do k = 1, size(run%contact%interface_node)
+      associate (i => run%contact%interface_node(k))
+        run%b(:, i) = run%b(:, i) + force(:, k)
+      end associate
+    end do
+  end subroutine add_interface_forces
+
+  !> x = x + A^-1 b, held dofs kept.
+  subroutine add_correction(run)
+    type(run_t), intent(inout) :: run
+    if (run%system%any_fixed) call clear_fixed(run%system, run%b)
+    call run%timers%enter(phase_solve)
+    call solve_whole(run%solver, run%b, run%correction)
+    run%x = run%x + run%correction
+    run%solves = run%solves + 1
+  end subroutine add_correction
+
+  !> Supports and prescribed motions in the right-hand side.
+  subroutine hold_dofs(run, stage, t1)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    if (run%plan%reactions) run%b_whole = run%b
+    if (run%plan%motions) then
+      call impose_motions(run, stage, t1)
+    else if (run%system%any_fixed) then
+      call clear_fixed(run%system, run%b)
+    end if
+  end subroutine hold_dofs
+
+  !> Contact on the interface: reactions for the free motion x_last, then the motion with them.
+  subroutine add_contact(run, acting, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    run%force = zero
+    if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
+    call run%timers%enter(phase_contact)
+    call solve_contact(run%model, run%contact, run%state%u, run%x_last, &
+        largest_work(run%ledger), run%force, acting, status)
+    if (run%plan%dump .and. acting) call dump_contact(run, status)
+    call run%timers%enter(phase_solve)
+    if (.not. acting) return
+    call clear_constrained_forces(run)
+    run%x_last = run%b_last + run%force
+    call run%solver%solve_last(run%x_last)
+  end subroutine add_contact
+
+  !> The contact problem of the step as a file, where the deck asks for it.
+  subroutine dump_contact(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    character(24) :: name
+    integer :: step
+    step = run%state%cycle + 1
+    associate (c => run%model%controls, p => run%contact)
+      if (step < c%dump_first .or. step > c%dump_last) return
+      if (mod(step - c%dump_first, c%dump_every) /= 0) return
+      write (name, '(a,i9.9,a)') 'contact_', step, '.txt'
+      call write_contact_problem(join_path(run%folder, trim(name)), 'step '//to_text(step), &
+          p%w%matrix, p%q, p%mu, p%r, status)
+    end associate
+  end subroutine dump_contact
+
+  subroutine clear_constrained_forces(run)
+    type(run_t), intent(inout) :: run
+    integer :: k, row
+    do k = 1, size(run%system%fixed_list, 2)
+      row = run%contact%slot(run%system%fixed_list(2, k))
+      if (row > 0) run%force(run%system%fixed_list(1, k), row) = zero
+    end do
+  end subroutine clear_constrained_forces
+
+  !> Loads at both ends of the step, and their weighted sum into b.
+  subroutine weigh_loads(run, stage, t1)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    run%load_0 = zero
+    run%load_1 = zero
+    if (.not. run%starts_from_rest) &
+        call add_loads(run%model, run%system, run%state%time, one, run%load_0)
+    call add_loads(run%model, run%system, t1, one, run%load_1)
+    associate (weight => run%scheme%stage(stage)%load_weight)
+      run%b = weight(1)*run%load_0 + weight(2)*run%load_1
+    end associate
+  end subroutine weigh_loads
+
+end module run_stage

@@ -1,0 +1,202 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Statics of bodies that supports do not hold: K is singular for them. Each step is solved with
+!> A = K + eps M (M lumped) of those bodies, by proximal passes
+!>   A x_k+1 = P1 - K U0 + eps M x_k + r_k+1,  x_0 = 0,
+!> until eps M (x_k+1 - x_k), the residual of equilibrium, is small: the limit has no trace of
+!> eps. Where there is no equilibrium, the same move comes again and again.
+module run_static
+  use assembly_system, only: system_t
+  use base_kinds, only: wp, zero, one, half
+  use base_status, only: status_t, fail, status_numerical
+  use base_strings, only: to_text
+  use model_data, only: model_t, corner_count
+  use run_data, only: run_t
+  implicit none
+  private
+  public :: make_shift, add_shift, check_pass, unbalanced_work
+
+contains
+
+  !> eps times the lumped mass of each node [F/L]: SHIFT (c/L)^2 m, L the largest size of its body,
+  !> c^2 = E/rho, for bodies whose supports leave a rigid motion; not allocated if none does.
+  subroutine make_shift(model, system, shift, factor)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    real(wp), allocatable, intent(out) :: shift(:)
+    real(wp), intent(in) :: factor
+    integer, allocatable :: body(:)
+    real(wp) :: size_2, c_2
+    integer :: b, e, i
+    call find_bodies(model, body)
+    do b = 1, maxval(body)
+      if (rigid_motions_held(model, system, body, b) == 3) cycle
+      if (.not. allocated(shift)) allocate (shift(system%n), source=zero)
+      size_2 = max(maxval(model%x(1, :), body == b) - minval(model%x(1, :), body == b), &
+          maxval(model%x(2, :), body == b) - minval(model%x(2, :), body == b))**2
+      c_2 = zero
+      do e = 1, model%elements
+        if (body(model%connectivity(1, e)) /= b) cycle
+        associate (p => model%part(model%element_part(e)))
+          c_2 = max(c_2, model%material(p%material)%item%wave_speed(p%plane)**2)
+        end associate
+      end do
+      do i = 1, system%n
+        if (body(i) == b) shift(i) = factor*c_2/size_2*system%lumped(i)
+      end do
+    end do
+  end subroutine make_shift
+
+  !> Bodies are what elements join: their number at each node.
+  pure subroutine find_bodies(model, body)
+    type(model_t), intent(in) :: model
+    integer, allocatable, intent(out) :: body(:)
+    integer, allocatable :: number(:)
+    integer :: e, i, k, a, b, n
+    body = [(i, i=1, model%nodes)]
+    do e = 1, model%elements
+      a = root(body, model%connectivity(1, e))
+      do k = 2, corner_count(model%connectivity(:, e))
+        b = root(body, model%connectivity(k, e))
+        body(max(a, b)) = min(a, b)
+        a = min(a, b)
+      end do
+    end do
+    allocate (number(model%nodes))
+    n = 0
+    do i = 1, model%nodes
+      if (body(i) == i) then
+        n = n + 1
+        number(i) = n
+      else
+        number(i) = number(body(i))
+      end if
+    end do
+    body = number
+  end subroutine find_bodies
+
+  pure integer function root(body, i)
+    integer, intent(in) :: body(:), i
+    root = i
+    do while (body(root) /= root)
+      root = body(root)
+    end do
+  end function root
+
+  !> Rank of the fixed dofs of a body on its two translations and its rotation.
+  pure integer function rigid_motions_held(model, system, body, b) result(rank)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: body(:), b
+    real(wp) :: row(3), basis(3, 3), length
+    integer :: k, m
+    length = maxval(abs(model%x)) + tiny(one)
+    rank = 0
+    do k = 1, size(system%fixed_list, 2)
+      associate (d => system%fixed_list(1, k), i => system%fixed_list(2, k))
+        if (body(i) /= b) cycle
+        row = [one, zero, -model%x(2, i)/length]
+        if (d == 2) row = [zero, one, model%x(1, i)/length]
+      end associate
+      row = row/norm2(row)
+      do m = 1, rank
+        row = row - dot_product(row, basis(:, m))*basis(:, m)
+      end do
+      if (norm2(row) < 1.0e-6_wp) cycle
+      rank = rank + 1
+      basis(:, rank) = row/norm2(row)
+      if (rank == 3) return
+    end do
+  end function rigid_motions_held
+
+  !> b = b + eps M x of the last pass.
+  pure subroutine add_shift(shift, x, b)
+    real(wp), intent(in) :: shift(:), x(:, :)
+    real(wp), intent(inout) :: b(:, :)
+    integer :: i
+    do i = 1, size(shift)
+      b(:, i) = b(:, i) + shift(i)*x(:, i)
+    end do
+  end subroutine add_shift
+
+  !> Work of the forces that the passes left unbalanced, the mean of both ends of the step
+  !> [F L]: - eps M of the last change.
+  subroutine unbalanced_work(run, work)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(out) :: work
+    integer :: i
+    work = half*sum(run%state%du*run%unbalanced)
+    do i = 1, run%system%n
+      run%unbalanced(:, i) = -run%shift(i)*run%move(:, i)
+    end do
+    work = work + half*sum(run%state%du*run%unbalanced)
+  end subroutine unbalanced_work
+
+  !> After a pass: is the residual of equilibrium small? Fails after MAXPASS passes, or when a body
+  !> moves by the same again and again.
+  subroutine check_pass(run, pass, is_done, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: pass
+    logical, intent(out) :: is_done
+    type(status_t), intent(inout) :: status
+    real(wp) :: residual, scale, change
+    integer :: i
+    residual = zero
+    scale = zero
+    change = zero
+    do i = 1, run%system%n
+      associate (move => run%x(:, i) - run%x_pass(:, i))
+        residual = residual + run%shift(i)*sum(abs(move))
+        change = max(change, maxval(abs(move - run%move(:, i))))
+      end associate
+    end do
+    if (run%plan%loads) scale = sum(abs(run%load_1))
+    scale = max(scale, maxval(abs(run%force)))
+    is_done = residual <= run%model%controls%static_residual*scale
+    run%same_moves = merge(run%same_moves + 1, 0, pass > 1 &
+        .and. change <= 1.0e-6_wp*maxval(abs(run%x - run%x_pass)))
+    run%move = run%x - run%x_pass
+    run%x_pass = run%x
+    if (is_done) return
+    if (run%same_moves >= 3) then
+      call fail_free(run, status)
+    else if (pass == run%model%controls%static_passes) then
+      call fail(status, status_numerical, 'no equilibrium after '//to_text(pass)// &
+          ' passes: a residual force of '//to_text(residual)//' is left', &
+          hint='raise MAXPASS or SHIFT on *BIPACT_STATIC, or take smaller load steps')
+    end if
+  end subroutine check_pass
+
+  !> Names the part that moves most, with its mean move and turn in a pass.
+  subroutine fail_free(run, status)
+    type(run_t), intent(in) :: run
+    type(status_t), intent(inout) :: status
+    logical :: is_of(run%model%nodes)
+    real(wp) :: mean(2), centre(2), turn, inertia
+    integer :: e, i, part
+    i = maxloc(sum(run%move**2, dim=1), dim=1)
+    part = 1
+    do e = 1, run%model%elements
+      if (any(run%model%connectivity(:, e) == i)) part = run%model%element_part(e)
+    end do
+    is_of = .false.
+    do e = 1, run%model%elements
+      if (run%model%element_part(e) == part) is_of(run%model%connectivity(:, e)) = .true.
+    end do
+    mean = sum(run%move, dim=2, mask=spread(is_of, 1, 2))/count(is_of)
+    centre = sum(run%model%x, dim=2, mask=spread(is_of, 1, 2))/count(is_of)
+    turn = zero
+    inertia = tiny(one)
+    do i = 1, run%model%nodes
+      if (.not. is_of(i)) cycle
+      associate (d => run%model%x(:, i) - centre, m => run%move(:, i) - mean)
+        turn = turn + d(1)*m(2) - d(2)*m(1)
+        inertia = inertia + d(1)**2 + d(2)**2
+      end associate
+    end do
+    call fail(status, status_numerical, 'there is no equilibrium: part '// &
+        to_text(run%model%part(part)%id)//' is not held; it moves by ('//to_text(mean(1))// &
+        ', '//to_text(mean(2))//') and turns by '//to_text(turn/inertia)//' a pass', &
+        hint='add supports or friction, or balance the loads')
+  end subroutine fail_free
+
+end module run_static
