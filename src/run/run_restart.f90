@@ -193,6 +193,7 @@ contains
       call archive%exchange('reaction.mean', run%mean_reaction)
     end if
     if (run%plan%motions) call archive%exchange('run.active', run%active_motion)
+    if (allocated(run%unbalanced)) call archive%exchange('static.unbalanced', run%unbalanced)
     call exchange_progress(archive, run)
   end subroutine exchange_run
 

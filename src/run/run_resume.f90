@@ -23,7 +23,7 @@ module run_resume
   use run_frames, only: check_segments
   use run_motion, only: hold_active, start_reactions
   use run_restart, only: origin_t, exchange_run, list_restarts, time_told, pairs_left_out
-  use run_setup, only: factor_matrix
+  use run_setup, only: factor_matrix, start_dynamics
   implicit none
   private
   public :: resume
@@ -94,6 +94,11 @@ contains
     if (failed(status)) return
     may_try_older = .true.
     run%restarted = path
+    if (run%static_steps > 0 .and. header%cycle > run%static_steps) then
+      call start_dynamics(run, status)
+      run%first_cycle = run%static_steps
+      run%ledger%staggered = run%scheme%staggered
+    end if
     call archive%rewind(archive_restore)
     call exchange_run(archive, run, origin)
     status = archive%status

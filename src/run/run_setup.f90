@@ -15,7 +15,7 @@ module run_setup
   use base_strings, only: to_text
   use linalg_registry, only: make_solver
   use model_data, only: controls_t
-  use model_state, only: state_t, make_state
+  use model_state, only: make_state
   use run_data, only: run_t
   use run_motion, only: activate_motions, start_reactions
   use run_plan, only: make_plan, add_feature
@@ -222,15 +222,12 @@ contains
   subroutine start_dynamics(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    type(state_t) :: none
     call make_scheme(run%model%controls, .false., run%scheme, status)
     if (run%plan%contact) call set_contact_rule(run)
-    if (run%scheme%has_acceleration .and. .not. allocated(run%state%a)) then
-      call make_state(run%model%v0, .true., none)
-      call move_alloc(none%a, run%state%a)
-    end if
     if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
     run%state%v = run%model%v0
+    run%scheme%starts_in_balance = .true.
+    call run%scheme%start(run%model, run%system, run%state, status)
     call factor_matrix(run, .false., status)
     call plan_refinement(run)
   end subroutine start_dynamics

@@ -131,8 +131,8 @@ contains
     work = work + half*sum(run%state%du*run%unbalanced)
   end subroutine unbalanced_work
 
-  !> After a pass: is the residual of equilibrium small? Fails after MAXPASS passes, or when a body
-  !> moves by the same again and again.
+  !> After a pass: is the residual of equilibrium small? Fails after MAXPASS passes, or when a
+  !> body moves by the same again and again.
   subroutine check_pass(run, pass, is_done, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: pass

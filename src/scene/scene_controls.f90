@@ -49,8 +49,8 @@ contains
       r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
       controls%is_static = r == 0
       if (r > 0) call read_dynamics(deck, controls, r)
-      if (r == 0) call add_note(deck%problems, 'no *CONTROL_IMPLICIT_DYNAMICS: the analysis '// &
-          'is static')
+      if (r == 0) call add_note(deck%problems, &
+          'no *CONTROL_IMPLICIT_DYNAMICS: the analysis is static')
       if (controls%is_static) then
         call refuse_dynamic(deck, 'BIPACT_TIME', 'SCHEME')
         call refuse_dynamic(deck, 'BIPACT_MASS', 'TYPE')
@@ -116,8 +116,8 @@ contains
     character(*), intent(in) :: keyword, field
     integer :: r
     r = deck%next(keyword, 1, 0)
-    if (r > 0) call deck%complain(r, field, '*'//keyword//' has no place in a static analysis '// &
-        '(IMASS 0 of *CONTROL_IMPLICIT_DYNAMICS): remove it')
+    if (r > 0) call deck%complain(r, field, '*'//keyword//' has no place in a static '// &
+        'analysis (IMASS 0 of *CONTROL_IMPLICIT_DYNAMICS): remove it')
   end subroutine refuse_dynamic
 
   subroutine read_static(deck, controls)

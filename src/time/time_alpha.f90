@@ -73,7 +73,8 @@ contains
     type(status_t), intent(inout) :: status
     allocate (this%d(2, system%n), this%a_before(2, system%n))
     this%a_before = zero
-    call start_acceleration(trim(this%name), model, system, state, status)
+    if (.not. this%starts_in_balance) &
+        call start_acceleration(trim(this%name), model, system, state, status)
   end subroutine alpha_start
 
   subroutine alpha_right_side(this, stage, system, state, b)

@@ -34,6 +34,7 @@ module time_base
     real(wp) :: h = zero                     !< step [T]
     type(stage_t), allocatable :: stage(:)
     logical :: has_acceleration = .false.
+    logical :: starts_in_balance = .false.   !< after a static phase: accelerations are zero
     !> Over the step the bodies feel the reactions weight_before r0 + weight_now r1.
     real(wp) :: weight_before = zero
     real(wp) :: weight_now = one

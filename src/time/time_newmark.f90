@@ -52,7 +52,8 @@ contains
     type(status_t), intent(inout) :: status
     allocate (this%d(2, system%n))
     if (this%dissipates) allocate (this%a_before(2, system%n))
-    call start_acceleration('NEWMARK', model, system, state, status)
+    if (.not. this%starts_in_balance) &
+        call start_acceleration('NEWMARK', model, system, state, status)
   end subroutine newmark_start
 
   subroutine newmark_right_side(this, stage, system, state, b)

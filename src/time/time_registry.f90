@@ -24,8 +24,10 @@ contains
     class(scheme_t), allocatable, intent(out) :: scheme
     type(status_t), intent(inout) :: status
     type(scheme_traits_t) :: traits
+    traits = traits_of(controls%scheme)
     if (is_static) then
       allocate (static_t :: scheme)
+      scheme%has_acceleration = traits%has_acceleration .and. .not. controls%is_static
       call scheme%set_step(controls%dt)
       return
     end if
@@ -45,7 +47,6 @@ contains
           '" is not available')
       return
     end select
-    traits = traits_of(controls%scheme)
     scheme%name = traits%name
     scheme%has_acceleration = traits%has_acceleration
     call scheme%set_step(controls%dt)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Statics by load steps: time is the load parameter, K x = P1 - K U0 + r, U1 = U0 + x,
-!> are zero. Over a step loads and reactions do the work of the mean of both ends, which is exact
-!> for linear K: d(U.K U/2) = dU.(P0 + P1)/2 + dU.(r0 + r1)/2.
+!> velocities are zero. Over a step loads and reactions do the work of the mean of both ends,
+!> which is exact for linear K: d(U.K U/2) = dU.(P0 + P1)/2 + dU.(r0 + r1)/2.
 module time_static
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, one, half
