@@ -12,6 +12,7 @@ module deck_schemes
     logical :: takes_gamma = .false.       !< GAMMA and BETA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_alpha = .false.       !< ALPHA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_rho = .false.         !< RHOINF
+    logical :: takes_redist = .true.       !< massless contact nodes
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
   end type scheme_traits_t
 
@@ -20,7 +21,7 @@ module deck_schemes
       scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.), &
       scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &
       scheme_traits_t('GENALPHA', takes_rho=.true., has_acceleration=.true.), &
-      scheme_traits_t('PAOLI')]
+      scheme_traits_t('PAOLI', takes_redist=.false.)]
 
   public :: traits_of
 

@@ -17,8 +17,8 @@ module run_static
 
 contains
 
-  !> eps times the lumped mass of each node [F/L]: SHIFT (c/L)^2 m, L the largest size of its body,
-  !> c^2 = E/rho, for bodies whose supports leave a rigid motion; not allocated if none does.
+  !> eps times the lumped mass of each node [F/L]: SHIFT (c/L)^2 m, L the largest size of its
+  !> body, c^2 = E/rho, for bodies whose supports leave a rigid motion; not allocated if none does.
   subroutine make_shift(model, system, shift, factor)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system

@@ -224,24 +224,39 @@ contains
     if (r == 0) return
     controls%mass = deck%word(r, 'TYPE')
     controls%redistribute = deck%integer(r, 'REDIST') == 1
+    traits = traits_of(controls%scheme)
+    if (controls%redistribute .and. .not. traits%takes_redist) &
+        call deck%complain(r, 'REDIST', 'expected 0: scheme '//trim(controls%scheme)// &
+        ' of *BIPACT_TIME does not damp what is left on massless nodes')
     if (controls%mass /= 'DISPERSION') then
       if (deck%is_given(r, 'COURANT')) call deck%complain(r, 'COURANT', &
           'only the mass DISPERSION has a Courant number: leave it blank')
       return
     end if
     if (deck%is_given(r, 'COURANT')) controls%courant = deck%real(r, 'COURANT')
-    traits = traits_of(controls%scheme)
-    if (traits%takes_gamma) then
-      midpoint = &
-          .not. (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) > zero)
-    else
-      midpoint = &
-          .not. (abs(controls%theta - 0.5_wp) > zero .or. abs(controls%xi - 0.5_wp) > zero)
-    end if
+    midpoint = is_midpoint(controls, traits)
     if (.not. midpoint) call add_warning(deck%problems, 'mass', 'the mass DISPERSION is '// &
         'tuned to theta = xi = 1/2 (gamma 1/2, beta 1/4): other values lose its accuracy, '// &
         'take these or another mass')
   end subroutine read_mass
+
+  !> Is a scheme the mid-point rule for waves? The mass DISPERSION is tuned to that.
+  pure logical function is_midpoint(controls, traits)
+    type(controls_t), intent(in) :: controls
+    type(scheme_traits_t), intent(in) :: traits
+    is_midpoint = .true.
+    if (traits%takes_theta) then
+      is_midpoint = .not. (abs(controls%theta - 0.5_wp) > zero &
+          .or. abs(controls%xi - 0.5_wp) > zero)
+    else if (traits%takes_gamma) then
+      is_midpoint = .not. (abs(controls%gamma - 0.5_wp) > zero &
+          .or. abs(controls%beta - 0.25_wp) > zero)
+    else if (traits%takes_rho) then
+      is_midpoint = .not. abs(controls%rho - one) > zero
+    else if (traits%takes_alpha) then
+      is_midpoint = .false.
+    end if
+  end function is_midpoint
 
   !> *BIPACT_CONTACT and *BIPACT_SOLVER.
   subroutine read_solver_options(deck, controls, cone, solver)

@@ -135,6 +135,10 @@ contains
       r = deck%next('INITIAL_VELOCITY_GENERATION', 1, r)
     end do
     call stop_supported(deck, model)
+    if (model%controls%is_static .and. any(abs(model%v0) > zero)) then
+      model%v0 = zero
+      call add_note(deck%problems, 'initial velocities have no effect in a static analysis')
+    end if
     call start_motions(deck, model, owner)
   end subroutine read_initial_velocities
 
