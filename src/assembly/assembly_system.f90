@@ -7,7 +7,8 @@ module assembly_system
   use assembly_mass, only: element_mass, redistribution_targets
   use element_base, only: element_slot_t
   use element_registry, only: make_element
-  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product
+  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
+      scalar_rows
   use model_data, only: model_t, corner_count
   implicit none
   private
@@ -29,8 +30,8 @@ module assembly_system
     integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
   end type system_t
 
-  public :: make_system, effective_matrix, multiply_mass, clear_fixed, list_fixed, &
-      stiffness_ratio
+  public :: make_system, effective_matrix, multiply_mass, add_mass_rows, clear_fixed, &
+      list_fixed, list_dofs, stiffness_ratio
 
 contains
 
@@ -264,22 +265,48 @@ contains
     end if
   end subroutine multiply_mass
 
+  !> y = y + factor * M x in some rows, each as MULTIPLY_MASS has it.
+  subroutine add_mass_rows(system, rows, factor, x, y)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: rows(:)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: y(:, :)
+    integer :: k
+    if (system%mass_is_diagonal) then
+      do k = 1, size(rows)
+        associate (i => rows(k))
+          y(1, i) = y(1, i) + factor*system%lumped(i)*x(1, i)
+          y(2, i) = y(2, i) + factor*system%lumped(i)*x(2, i)
+        end associate
+      end do
+    else
+      call scalar_rows(system%graph, system%mass, factor, rows, x, y)
+    end if
+  end subroutine add_mass_rows
+
   !> fixed_list and any_fixed from fixed.
   pure subroutine list_fixed(system)
     type(system_t), intent(inout) :: system
+    system%fixed_list = list_dofs(system%fixed)
+    system%any_fixed = size(system%fixed_list) > 0
+  end subroutine list_fixed
+
+  !> Direction and node (2, *) of the dofs that are marked, node by node.
+  pure function list_dofs(marked) result(list)
+    logical, intent(in) :: marked(:, :)
+    integer, allocatable :: list(:, :)
     integer :: k, d, n
-    system%any_fixed = any(system%fixed)
-    if (allocated(system%fixed_list)) deallocate (system%fixed_list)
-    allocate (system%fixed_list(2, count(system%fixed)))
+    allocate (list(2, count(marked)))
     n = 0
-    do k = 1, system%n
+    do k = 1, size(marked, 2)
       do d = 1, 2
-        if (.not. system%fixed(d, k)) cycle
+        if (.not. marked(d, k)) cycle
         n = n + 1
-        system%fixed_list(:, n) = [d, k]
+        list(:, n) = [d, k]
       end do
     end do
-  end subroutine list_fixed
+  end function list_dofs
 
   !> Sets the entries of fixed dofs to zero.
   pure subroutine clear_fixed(system, x)

@@ -21,7 +21,8 @@ module run_loop
   use output_tables, only: any_due, energies_due
   use run_data, only: run_t
   use run_frames, only: keep_frame
-  use run_motion, only: activate_motions, impose_motions, restore_motions, find_reactions
+  use run_motion, only: activate_motions, impose_motions, restore_motions, keep_right_side, &
+      find_reactions
   use run_progress, only: progress_t, show_progress, clear_progress
   use run_restart, only: keep_restart, how_to_go_on
   use run_setup, only: factor_matrix
@@ -136,8 +137,6 @@ contains
     integer, parameter :: most_passes = 3
     integer :: pass
     logical :: done
-    run%b_kept = run%b
-    if (run%plan%motions) run%b_kept = run%b_whole
     call refine_motion(run, stage)
     if (.not. run%plan%contact) return
     do pass = 1, most_passes
@@ -219,7 +218,8 @@ contains
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
-    if (run%plan%reactions) run%b_whole = run%b
+    if (run%plan%reactions) call keep_right_side(run)
+    if (run%state%cycle >= run%plan%refined_from) run%b_kept = run%b
     if (run%plan%motions) then
       call impose_motions(run, stage, t1)
     else if (run%system%any_fixed) then

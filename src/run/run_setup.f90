@@ -16,7 +16,7 @@ module run_setup
   use linalg_registry, only: make_solver
   use model_state, only: make_state
   use run_data, only: run_t
-  use run_motion, only: activate_motions, start_reactions
+  use run_motion, only: make_motions, start_reactions
   use run_plan, only: make_plan, add_feature
   use scene_model, only: make_scene
   use time_ledger, only: make_ledger
@@ -69,7 +69,7 @@ contains
     if (failed(status)) return
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
-    call make_motions(run)
+    if (run%plan%reactions) call make_motions(run)
     call run%scheme%start(run%model, run%system, run%state, status)
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
@@ -88,22 +88,6 @@ contains
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
-
-  !> Work space of prescribed motions and reactions; the dofs that are held from the start.
-  subroutine make_motions(run)
-    type(run_t), intent(inout) :: run
-    logical :: changed
-    integer :: n
-    if (.not. run%plan%reactions) return
-    n = run%system%n
-    allocate (run%b_whole(2, n), run%reaction(2, n), run%mean_reaction(2, n))
-    run%reaction = zero
-    run%mean_reaction = zero
-    if (.not. run%plan%motions) return
-    allocate (run%given(2, n), run%active_motion(size(run%model%motion)))
-    run%active_motion = .false.
-    call activate_motions(run, run%scheme%h, changed)
-  end subroutine make_motions
 
   !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
   !> loses digits that the ledger needs: each solve multiplies a momentum by 1 + eps times
