@@ -7,9 +7,15 @@ import os
 import re
 import shutil
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+os.environ.setdefault("ROOT", ROOT)
+os.environ.setdefault("BIPACT", os.path.join(ROOT, "bin", "bipact"))
+if "TMP" not in os.environ:
+    os.environ["TMP"] = tempfile.mkdtemp()
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
 import plain
 import scenes
 from decks import DECKS, FREQUENT
