@@ -241,6 +241,11 @@ def parameters():
             ("expected an integer, the value is 2.5",),
         ),
         (
+            "an integer beyond all integers",
+            [expression("I n", "3.0e100/2")],
+            ("expected an integer, the value is 1.5E100",),
+        ),
+        (
             "a name that comes later",
             [expression("R t", "2*u"), expression("R u", "1.0")],
             ('undefined parameter "U"',),
