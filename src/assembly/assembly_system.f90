@@ -25,13 +25,15 @@ module assembly_system
     !> drops out before anything is multiplied, so a flying body has no internal force at all.
     real(wp), allocatable :: stiffness(:, :, :)
     integer, allocatable :: damped(:)         !< elements with a massless node: those of C
-    logical, allocatable :: fixed(:, :)       !< (2, n)
+    !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
+    !> node of each: set together, by CONSTRAIN
+    logical, allocatable :: fixed(:, :)
     logical :: any_fixed = .false.
-    integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
+    integer, allocatable :: fixed_list(:, :)
   end type system_t
 
-  public :: make_system, effective_matrix, multiply_mass, add_mass_rows, clear_fixed, &
-      list_fixed, list_dofs, stiffness_ratio
+  public :: make_system, effective_matrix, multiply_mass, add_mass_rows, constrain, &
+      clear_fixed, set_fixed, list_dofs, stiffness_ratio
 
 contains
 
@@ -52,8 +54,7 @@ contains
     call assemble_mass(model, first, target, system)
     call assemble_stiffness(model, system)
     call find_damped(model, massless, system)
-    system%fixed = model%fixed
-    call list_fixed(system)
+    call constrain(system, model%fixed)
   end subroutine make_system
 
   !> Elements that hold a massless node.
@@ -285,12 +286,14 @@ contains
     end if
   end subroutine add_mass_rows
 
-  !> fixed_list and any_fixed from fixed.
-  pure subroutine list_fixed(system)
+  !> From now on the dofs that are marked (2, n) are fixed, and no others.
+  pure subroutine constrain(system, marked)
     type(system_t), intent(inout) :: system
-    system%fixed_list = list_dofs(system%fixed)
+    logical, intent(in) :: marked(:, :)
+    system%fixed = marked
+    system%fixed_list = list_dofs(marked)
     system%any_fixed = size(system%fixed_list) > 0
-  end subroutine list_fixed
+  end subroutine constrain
 
   !> Direction and node (2, *) of the dofs that are marked, node by node.
   pure function list_dofs(marked) result(list)
@@ -317,5 +320,18 @@ contains
       x(system%fixed_list(1, k), system%fixed_list(2, k)) = zero
     end do
   end subroutine clear_fixed
+
+  !> x = values on fixed dofs.
+  pure subroutine set_fixed(system, values, x)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: values(:, :)
+    real(wp), intent(inout) :: x(:, :)
+    integer :: k
+    do k = 1, size(system%fixed_list, 2)
+      associate (d => system%fixed_list(1, k), i => system%fixed_list(2, k))
+        x(d, i) = values(d, i)
+      end associate
+    end do
+  end subroutine set_fixed
 
 end module assembly_system

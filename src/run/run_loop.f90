@@ -11,6 +11,7 @@ module run_loop
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_search, phase_contact, &
       phase_update, phase_energy, phase_output, phase_other
+  use contact_condense, only: clear_constrained
   use contact_monitor, only: check_all
   use contact_rows, only: copy_rows
   use contact_search, only: update_lists, relist_outrun
@@ -266,7 +267,7 @@ contains
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
-    call clear_constrained_forces(run)
+    call clear_constrained(run%contact, run%force)
     run%x_last = run%b_last + run%force
     call run%solver%solve_last(run%x_last)
   end subroutine add_contact
@@ -286,15 +287,6 @@ contains
           p%w%matrix, p%q, p%mu, p%r, status)
     end associate
   end subroutine dump_contact
-
-  subroutine clear_constrained_forces(run)
-    type(run_t), intent(inout) :: run
-    integer :: k, row
-    do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%slot(run%system%fixed_list(2, k))
-      if (row > 0) run%force(run%system%fixed_list(1, k), row) = zero
-    end do
-  end subroutine clear_constrained_forces
 
   !> Loads at both ends of the step, and their weighted sum into b.
   subroutine weigh_loads(run, t1)

@@ -4,7 +4,7 @@
 module run_motion
   use assembly_forces, only: add_loads, subtract_internal_force
   use assembly_part, only: part_t, rows_of_nodes, columns_of_nodes, subtract_part
-  use assembly_system, only: multiply_mass, clear_fixed, list_fixed, list_dofs
+  use assembly_system, only: multiply_mass, constrain, clear_fixed, set_fixed, list_dofs
   use base_kinds, only: wp, zero, one
   use contact_work, only: subtract_contact_force
   use model_data, only: motion_t, curve_value
@@ -63,13 +63,15 @@ contains
   !> The held dofs: supports, and the motions that act.
   subroutine hold_active(run)
     type(run_t), intent(inout) :: run
+    logical, allocatable :: is_held(:, :)
     integer :: k
-    run%system%fixed = run%model%fixed
+    allocate (is_held(2, run%system%n))
+    is_held = run%model%fixed
     do k = 1, size(run%model%motion)
       if (run%active_motion(k)) &
-          run%system%fixed(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
+          is_held(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
     end do
-    call list_fixed(run%system)
+    call constrain(run%system, is_held)
   end subroutine hold_active
 
   pure logical function acts(motion, t1, h)
@@ -116,12 +118,7 @@ contains
   !> The given motions to the last digit, after the solve.
   subroutine restore_motions(run)
     type(run_t), intent(inout) :: run
-    integer :: k
-    do k = 1, size(run%system%fixed_list, 2)
-      associate (d => run%system%fixed_list(1, k), i => run%system%fixed_list(2, k))
-        run%x(d, i) = run%given(d, i)
-      end associate
-    end do
+    call set_fixed(run%system, run%given, run%x)
   end subroutine restore_motions
 
   !> b = b - A x with a part of the effective matrix.

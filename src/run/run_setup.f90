@@ -7,6 +7,7 @@ module run_setup
   use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
+  use contact_condense, only: constrain_interface
   use contact_search, only: update_lists
   use contact_setup, only: make_contact, contact_nodes
   use deck_keywords, only: fill_table
@@ -161,22 +162,9 @@ contains
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
-    if (m > 0) call interface_flexibility(run)
-  end subroutine factor_matrix
-
-  !> S^-1 of the interface; fixed dofs do not move, whatever the force.
-  subroutine interface_flexibility(run)
-    type(run_t), intent(inout) :: run
-    integer :: k, row
+    if (m == 0) return
     call run%solver%flexibility(run%contact%schur_inverse)
-    do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%slot(run%system%fixed_list(2, k))
-      if (row == 0) cycle
-      row = 2*row - 2 + run%system%fixed_list(1, k)
-      run%contact%schur_inverse(row, :) = zero
-      run%contact%schur_inverse(:, row) = zero
-    end do
-    run%contact%w_is_current = .false.
-  end subroutine interface_flexibility
+    call constrain_interface(run%contact, run%system%fixed_list)
+  end subroutine factor_matrix
 
 end module run_setup
