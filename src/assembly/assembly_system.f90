@@ -20,6 +20,7 @@ module assembly_system
     logical :: mass_is_diagonal = .false.
     !> (n) row sums of the mass [M]: body loads, momentum
     real(wp), allocatable :: lumped(:)
+    type(element_slot_t) :: element(3:4)      !< the element types by their number of nodes
     integer, allocatable :: corner(:, :)      !< (4, ne) rows of nodes
     !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
     !> drops out before anything is multiplied, so a flying body has no internal force at all.
@@ -47,6 +48,8 @@ contains
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
     system%n = model%nodes
     system%corner = model%connectivity
+    call make_element(3, system%element(3)%item)
+    call make_element(4, system%element(4)%item)
     call redistribution_targets(model, massless, first, target, status)
     if (failed(status)) return
     call element_cliques(model, first, target, clique_first, clique)
@@ -103,15 +106,13 @@ contains
     type(model_t), intent(in) :: model
     integer, intent(in) :: first(:), target(:)
     type(system_t), intent(inout) :: system
-    type(element_slot_t) :: element(3:4)
     real(wp) :: me(4, 4), share
     integer :: e, i, j, a, b, position
-    call make_element(3, element(3)%item)
-    call make_element(4, element(4)%item)
     allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
     system%mass = zero
     do e = 1, model%elements
-      call element_mass(model, element(corner_count(model%connectivity(:, e)))%item, e, me)
+      call element_mass(model, &
+          system%element(corner_count(model%connectivity(:, e)))%item, e, me)
       do j = 1, 4
         associate (nj => model%connectivity(j, e))
           do i = 1, 4
@@ -149,17 +150,14 @@ contains
   subroutine assemble_stiffness(model, system)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
-    type(element_slot_t) :: element(3:4)
     real(wp) :: ke(8, 8)
     integer :: e, n
-    call make_element(3, element(3)%item)
-    call make_element(4, element(4)%item)
     allocate (system%stiffness(6, 6, model%elements))
     do e = 1, model%elements
       n = corner_count(model%connectivity(:, e))
       ke = zero
       associate (part => model%part(model%element_part(e)))
-        call element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
+        call system%element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
             model%material(part%material)%item%moduli(part%plane), part%thickness, &
             ke(1:2*n, 1:2*n))
       end associate
