@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Products with a part of the effective matrix against those with the whole one, digit for digit.
+!> Products with a part of the effective matrix equal those with the whole one, digit for digit.
 program test_part
   use assembly_forces, only: subtract_internal_force, subtract_damping_force
   use assembly_part, only: part_t, rows_of_nodes, columns_of_nodes, subtract_part
