@@ -51,7 +51,8 @@ contains
     call run%timers%enter(phase_other)
   end subroutine read_scene
 
-  !> Makes everything that the plan needs. Nothing is written.
+  !> Makes everything that the plan needs; what has failed is the last thing made. Nothing is
+  !> written.
   subroutine set_up(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
@@ -72,20 +73,25 @@ contains
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
     if (run%plan%reactions) call make_motions(run)
     call run%scheme%start(run%model, run%system, run%state, status)
+    if (failed(status)) return
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     call make_bending(run%model, run%bending)
     if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
         'the initial energy is no finite number', hint='check units and initial velocities')
+    if (failed(status)) return
     call make_solver(run%solver_options, run%solver, status)
+    if (failed(status)) return
     allocate (run%b(2, run%system%n), run%x(2, run%system%n))
     run%x = zero
     if (run%plan%loads) then
       allocate (run%load_0(2, run%system%n), run%load_1(2, run%system%n))
       run%load_0 = zero
     end if
-    call first_lists(run, status)
+    if (run%plan%contact) call first_lists(run, status)
+    if (failed(status)) return
     call factor_matrix(run, .true., status)
+    if (failed(status)) return
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
@@ -130,7 +136,6 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     logical :: new_interface
-    if (.not. run%plan%contact .or. failed(status)) return
     call run%timers%enter(phase_search)
     call update_lists(run%model, run%contact, run%state%u, run%state%du, run%state%v, zero, &
         run%scheme%h, 0, run%scheme%h, new_interface, status)
@@ -153,6 +158,7 @@ contains
     m = size(run%contact%interface_node)
     if (again) then
       call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
+      if (failed(status)) return
       run%analyses = run%analyses + 1
       if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
       allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
@@ -162,7 +168,7 @@ contains
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
-    if (m == 0) return
+    if (m == 0 .or. failed(status)) return
     call run%solver%flexibility(run%contact%schur_inverse)
     call constrain_interface(run%contact, run%system%fixed_list)
   end subroutine factor_matrix
