@@ -19,6 +19,8 @@ import sys
 import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
+from cards import NODE, SHELL, TEN
+
 ECHO = "deck.echo.k"
 HARMLESS = (
     "KEYWORD TITLE COMMENT END NODE ELEMENT_SHELL PART SECTION_SHELL MAT_ELASTIC DEFINE_CURVE "
@@ -26,6 +28,7 @@ HARMLESS = (
     "CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE"
 ).split()
 HARMLESS_KINDS = ("BIPACT_", "CONTROL_", "DATABASE_", "PARAMETER", "SET_")
+LONG = (20,) * 8  # columns of a long card
 FREE = ("", "0", "3")  # TC of a node of a plane model: z alone
 NEAR = 1.0e-9  # two lengths of a deck are the same: its digits, and round-off of turned scenes
 
@@ -55,7 +58,7 @@ class Deck:
                 return name[: -len(option)], True, long
         return name, name == "PART", long
 
-    def cards(self, keyword, per_entry=1, widths=(10,) * 8):
+    def cards(self, keyword, per_entry=1, widths=TEN):
         """Entries of a keyword: lists of `per_entry` cards, each a list of field texts."""
         for name, titled, long, lines in self.blocks:
             if name != keyword:
@@ -64,14 +67,14 @@ class Deck:
             lines = lines if keyword == "PART" else lines[titled:]
             for k in range(0, len(lines) - step + 1, step):
                 entry = lines[k + step - per_entry : k + step]
-                yield [split(line, (20,) * 8 if long else widths) for line in entry]
+                yield [split(line, LONG if long else widths) for line in entry]
 
     def lists(self, keyword):
         """{id: numbers} of sets: a card with the id, then cards of numbers."""
         found = {}
         for name, titled, long, lines in self.blocks:
             if name == keyword:
-                fields = [split(x, (20,) * 8 if long else (10,) * 8) for x in lines[titled:]]
+                fields = [split(x, LONG if long else TEN) for x in lines[titled:]]
                 members = [int(f) for card in fields[1:] for f in card if f]
                 found[int(fields[0][0])] = [n for n in members if n]
         return found
@@ -127,12 +130,12 @@ def polygon_area(corners):
 def read_bodies(deck):
     """[Body] of the parts that have elements, and [(E, density, thickness)] of them."""
     nodes = {}
-    for (f,) in deck.cards("NODE", 1, (8, 16, 16, 16, 8, 8)):
+    for (f,) in deck.cards("NODE", 1, NODE):
         nodes[int(f[0])] = value(f[1]), value(f[2])
         if f[4] not in FREE:
             raise NoExactSolution("node %s is held" % f[0])
     cells = {}
-    for (f,) in deck.cards("ELEMENT_SHELL", 1, (8,) * 6):
+    for (f,) in deck.cards("ELEMENT_SHELL", 1, SHELL):
         corners = list(dict.fromkeys(int(n) for n in f[2:6] if n and int(n)))
         cells.setdefault(int(f[1]), []).append(corners)
     parts = {int(f[0]): (int(f[1]), int(f[2])) for (f,) in deck.cards("PART")}
@@ -214,7 +217,7 @@ def two_bars(deck, bodies):
     ]
     if len(contacts) != 1:
         raise NoExactSolution("%d contacts between two bodies" % len(contacts))
-    first, second = (split(line, (10,) * 8) for line in (contacts[0] + [""])[:2])
+    first, second = (split(line, TEN) for line in (contacts[0] + [""])[:2])
     check_life(*second[:2])
     axis = along_motion(bodies, bodies[0].velocity - bodies[1].velocity)
     if (bodies[0].points @ axis).min() > (bodies[1].points @ axis).min():

@@ -24,6 +24,7 @@ from matplotlib.animation import FuncAnimation, PillowWriter  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
 
+from cards import SHELL  # noqa: E402
 from exact_scene import ECHO, Deck  # noqa: E402
 from fields import Fields  # noqa: E402
 
@@ -92,7 +93,7 @@ def parts_of(run, folder):
         return run.frame(0, "PART")
     path = os.path.join(folder, ECHO)
     if os.path.exists(path):
-        parts = [int(f[1]) for (f,) in Deck(path).cards("ELEMENT_SHELL", 1, (8,) * 6)]
+        parts = [int(f[1]) for (f,) in Deck(path).cards("ELEMENT_SHELL", 1, SHELL)]
         if len(parts) == len(run.cells):
             return np.array(parts)
     return bodies_of(run)[[c[0] for c in run.cells]]

@@ -36,9 +36,14 @@ module assembly_bending
     real(wp), allocatable :: largest(:)           !< (parts) modes - exact of a look
     integer, allocatable :: step(:)               !< (parts) of that look
     integer :: looks = 0
+    real(wp) :: peak = zero                       !< largest strain energy seen [F L]
   end type bending_t
 
   public :: make_bending, look_at_bending, locks, excess, exchange_bending
+
+  !> States of less strain energy than this share of the largest are passed over: what they add
+  !> to the sums is small.
+  real(wp), parameter :: least_share = 0.1_wp
 
 contains
 
@@ -162,6 +167,8 @@ contains
     integer, intent(in) :: step
     type(bending_t), intent(inout) :: bending
     integer :: e, k, p
+    if (.not. sum(strain) > least_share*bending%peak) return
+    bending%peak = max(bending%peak, sum(strain))
     bending%now = bending_sums_t()
     bending%now%strain = strain
     do e = 1, model%elements
@@ -267,6 +274,7 @@ contains
     call archive%exchange('bending.largest', bending%largest)
     call archive%exchange('bending.step', bending%step)
     call archive%exchange('bending.looks', bending%looks)
+    call archive%exchange('bending.peak', bending%peak)
   end subroutine exchange_bending
 
 end module assembly_bending

@@ -8,7 +8,8 @@ module assembly_forces
   use model_data, only: model_t, curve_value
   implicit none
   private
-  public :: subtract_internal_force, subtract_damping_force, damping_product, strain_energies, &
+  public :: subtract_internal_force, subtract_damping_force, subtract_element_forces, &
+      damping_product, strain_energies, &
       strain_product, element_product, add_loads, largest_rotation, first_inverted
 
 contains
@@ -29,14 +30,24 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
+    call subtract_element_forces(system, system%damped, factor, u, f)
+  end subroutine subtract_damping_force
+
+  !> f = f - factor * K u of some elements, in their order; u, f (2, n).
+  subroutine subtract_element_forces(system, elements, factor, u, f)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: elements(:)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: f(:, :)
     integer :: k
-    do k = 1, size(system%damped)
-      associate (e => system%damped(k))
+    do k = 1, size(elements)
+      associate (e => elements(k))
         call internal_kernel(1, system%n, system%corner(:, e), system%stiffness(:, :, e), &
             factor, u, f)
       end associate
     end do
-  end subroutine subtract_damping_force
+  end subroutine subtract_element_forces
 
   pure subroutine internal_kernel(elements, n, corner, k, factor, u, f)
     integer, intent(in) :: elements, n

@@ -7,7 +7,8 @@ module assembly_system
   use assembly_mass, only: element_mass, redistribution_targets
   use element_base, only: element_slot_t
   use element_registry, only: make_element
-  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product
+  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
+      scalar_rows
   use model_data, only: model_t, corner_count
   implicit none
   private
@@ -19,18 +20,21 @@ module assembly_system
     logical :: mass_is_diagonal = .false.
     !> (n) row sums of the mass [M]: body loads, momentum
     real(wp), allocatable :: lumped(:)
+    type(element_slot_t) :: element(3:4)      !< the element types by their number of nodes
     integer, allocatable :: corner(:, :)      !< (4, ne) rows of nodes
     !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
     !> drops out before anything is multiplied, so a flying body has no internal force at all.
     real(wp), allocatable :: stiffness(:, :, :)
     integer, allocatable :: damped(:)         !< elements with a massless node: those of C
-    logical, allocatable :: fixed(:, :)       !< (2, n)
+    !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
+    !> node of each: set together, by CONSTRAIN
+    logical, allocatable :: fixed(:, :)
     logical :: any_fixed = .false.
-    integer, allocatable :: fixed_list(:, :)  !< (2, m) direction and node of each fixed dof
+    integer, allocatable :: fixed_list(:, :)
   end type system_t
 
-  public :: make_system, effective_matrix, multiply_mass, clear_fixed, list_fixed, &
-      stiffness_ratio
+  public :: make_system, effective_matrix, multiply_mass, add_mass_rows, constrain, &
+      clear_fixed, set_fixed, list_dofs, stiffness_ratio
 
 contains
 
@@ -44,6 +48,8 @@ contains
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
     system%n = model%nodes
     system%corner = model%connectivity
+    call make_element(3, system%element(3)%item)
+    call make_element(4, system%element(4)%item)
     call redistribution_targets(model, massless, first, target, status)
     if (failed(status)) return
     call element_cliques(model, first, target, clique_first, clique)
@@ -51,8 +57,7 @@ contains
     call assemble_mass(model, first, target, system)
     call assemble_stiffness(model, system)
     call find_damped(model, massless, system)
-    system%fixed = model%fixed
-    call list_fixed(system)
+    call constrain(system, model%fixed)
   end subroutine make_system
 
   !> Elements that hold a massless node.
@@ -101,15 +106,13 @@ contains
     type(model_t), intent(in) :: model
     integer, intent(in) :: first(:), target(:)
     type(system_t), intent(inout) :: system
-    type(element_slot_t) :: element(3:4)
     real(wp) :: me(4, 4), share
     integer :: e, i, j, a, b, position
-    call make_element(3, element(3)%item)
-    call make_element(4, element(4)%item)
     allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
     system%mass = zero
     do e = 1, model%elements
-      call element_mass(model, element(corner_count(model%connectivity(:, e)))%item, e, me)
+      call element_mass(model, &
+          system%element(corner_count(model%connectivity(:, e)))%item, e, me)
       do j = 1, 4
         associate (nj => model%connectivity(j, e))
           do i = 1, 4
@@ -147,17 +150,14 @@ contains
   subroutine assemble_stiffness(model, system)
     type(model_t), intent(in) :: model
     type(system_t), intent(inout) :: system
-    type(element_slot_t) :: element(3:4)
     real(wp) :: ke(8, 8)
     integer :: e, n
-    call make_element(3, element(3)%item)
-    call make_element(4, element(4)%item)
     allocate (system%stiffness(6, 6, model%elements))
     do e = 1, model%elements
       n = corner_count(model%connectivity(:, e))
       ke = zero
       associate (part => model%part(model%element_part(e)))
-        call element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
+        call system%element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
             model%material(part%material)%item%moduli(part%plane), part%thickness, &
             ke(1:2*n, 1:2*n))
       end associate
@@ -264,22 +264,50 @@ contains
     end if
   end subroutine multiply_mass
 
-  !> fixed_list and any_fixed from fixed.
-  pure subroutine list_fixed(system)
+  !> y = y + factor * M x in some rows, each as MULTIPLY_MASS has it.
+  subroutine add_mass_rows(system, rows, factor, x, y)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: rows(:)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: y(:, :)
+    integer :: k
+    if (system%mass_is_diagonal) then
+      do k = 1, size(rows)
+        associate (i => rows(k))
+          y(1, i) = y(1, i) + factor*system%lumped(i)*x(1, i)
+          y(2, i) = y(2, i) + factor*system%lumped(i)*x(2, i)
+        end associate
+      end do
+    else
+      call scalar_rows(system%graph, system%mass, factor, rows, x, y)
+    end if
+  end subroutine add_mass_rows
+
+  !> From now on the dofs that are marked (2, n) are fixed, and no others.
+  pure subroutine constrain(system, marked)
     type(system_t), intent(inout) :: system
+    logical, intent(in) :: marked(:, :)
+    system%fixed = marked
+    system%fixed_list = list_dofs(marked)
+    system%any_fixed = size(system%fixed_list) > 0
+  end subroutine constrain
+
+  !> Direction and node (2, *) of the dofs that are marked, node by node.
+  pure function list_dofs(marked) result(list)
+    logical, intent(in) :: marked(:, :)
+    integer, allocatable :: list(:, :)
     integer :: k, d, n
-    system%any_fixed = any(system%fixed)
-    if (allocated(system%fixed_list)) deallocate (system%fixed_list)
-    allocate (system%fixed_list(2, count(system%fixed)))
+    allocate (list(2, count(marked)))
     n = 0
-    do k = 1, system%n
+    do k = 1, size(marked, 2)
       do d = 1, 2
-        if (.not. system%fixed(d, k)) cycle
+        if (.not. marked(d, k)) cycle
         n = n + 1
-        system%fixed_list(:, n) = [d, k]
+        list(:, n) = [d, k]
       end do
     end do
-  end subroutine list_fixed
+  end function list_dofs
 
   !> Sets the entries of fixed dofs to zero.
   pure subroutine clear_fixed(system, x)
@@ -290,5 +318,18 @@ contains
       x(system%fixed_list(1, k), system%fixed_list(2, k)) = zero
     end do
   end subroutine clear_fixed
+
+  !> x = values on fixed dofs.
+  pure subroutine set_fixed(system, values, x)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: values(:, :)
+    real(wp), intent(inout) :: x(:, :)
+    integer :: k
+    do k = 1, size(system%fixed_list, 2)
+      associate (d => system%fixed_list(1, k), i => system%fixed_list(2, k))
+        x(d, i) = values(d, i)
+      end associate
+    end do
+  end subroutine set_fixed
 
 end module assembly_system

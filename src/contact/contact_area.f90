@@ -5,7 +5,7 @@ module contact_area
   use base_kinds, only: wp, zero, one, half
   use cone_types, only: contact_open
   use contact_features, only: normal_between, difference
-  use contact_pairing, only: pairing_t, no_gap
+  use contact_pairing, only: pairing_t, node_forces_t, no_gap
   use contact_surface, only: surface_t
   use contact_types, only: contact_t
   use model_data, only: model_t
@@ -28,6 +28,9 @@ contains
       allocate (nodal%side(n + m), nodal%area(n + m))
       allocate (nodal%force(2, n + m), nodal%before(2, n + m), nodal%normal(n + m))
       allocate (nodal%gap(n + m), nodal%slip(n + m), nodal%status(n + m))
+      allocate (nodal%is_near(n + m), nodal%around(n + m))
+      allocate (nodal%low(max(size(pairing%side(1)%length), size(pairing%side(2)%length))))
+      allocate (nodal%high(size(nodal%low)))
       nodal%side(1:n) = 1
       nodal%side(n + 1:) = 2
       nodal%force = zero
@@ -60,45 +63,49 @@ contains
     class(pairing_t), intent(inout) :: pairing
     real(wp), intent(in), contiguous :: u(:, :)
     integer :: s, t
-    pairing%nodal%area = zero
+    associate (nodal => pairing%nodal)
+      nodal%area = zero
+      nodal%is_near = nodal%gap < no_gap .or. nodal%normal > zero
+    end associate
     do s = 1, 2
       if (size(pairing%side(s)%node) == 0) cycle
       t = 3 - s
       if (size(pairing%side(t)%node) == 0) t = s
-      associate (n => size(pairing%side(s)%node), first => pairing%nodal%first(s))
-        call cover_side(model, pairing%side(s), pairing%side(t), u, pairing%is_wall, &
-            pairing%nodal%gap(first + 1:first + n) < no_gap .or. &
-            pairing%nodal%normal(first + 1:first + n) > zero, &
-            pairing%nodal%area(first + 1:first + n))
-      end associate
+      call cover_side(model, pairing%side(s), pairing%side(t), u, pairing%is_wall, &
+          pairing%nodal%first(s), pairing%nodal)
     end do
   end subroutine find_areas
 
-  subroutine cover_side(model, own, other, u, is_wall, is_near, area)
+  !> The areas of the nodes of a side, after the first ones of both sides.
+  subroutine cover_side(model, own, other, u, is_wall, before, nodal)
     type(model_t), intent(in) :: model
     type(surface_t), intent(in) :: own, other
     real(wp), intent(in), contiguous :: u(:, :)
-    logical, intent(in) :: is_wall, is_near(:)
-    real(wp), intent(inout) :: area(:)
-    real(wp) :: whole(size(own%node)), low(size(other%length)), high(size(other%length))
+    logical, intent(in) :: is_wall
+    integer, intent(in) :: before
+    type(node_forces_t), intent(inout) :: nodal
     real(wp) :: share(2), thickness
-    integer :: e, k, n
-    whole = zero
+    integer :: e, k, n, node(2)
+    nodal%around = zero
     do e = 1, size(own%length)
       if (.not. own%is_listed(e)) cycle
-      if (.not. any(is_near(own%index(own%end_node(:, e))))) cycle
+      do k = 1, 2
+        node(k) = before + own%index(own%end_node(k, e))
+      end do
+      if (.not. (nodal%is_near(node(1)) .or. nodal%is_near(node(2)))) cycle
       thickness = thickness_of(model, own%part(e))
       n = 0
-      if (.not. is_wall) call covering(own, other, e, model%x, u, low, high, n)
-      call integrate(low, high, n, share)
+      if (.not. is_wall) &
+          call covering(own, other, e, model%x, u, nodal%low, nodal%high, n)
+      call integrate(nodal%low, nodal%high, n, share)
       do k = 1, 2
-        associate (i => own%index(own%end_node(k, e)))
-          area(i) = area(i) + share(k)*own%length(e)*thickness
-          whole(i) = whole(i) + half*own%length(e)*thickness
-        end associate
+        nodal%area(node(k)) = nodal%area(node(k)) + share(k)*own%length(e)*thickness
+        nodal%around(node(k)) = nodal%around(node(k)) + half*own%length(e)*thickness
       end do
     end do
-    where (area < 1.0e-3_wp*whole) area = whole
+    do k = before + 1, before + size(own%node)
+      if (nodal%area(k) < 1.0e-3_wp*nodal%around(k)) nodal%area(k) = nodal%around(k)
+    end do
   end subroutine cover_side
 
   pure real(wp) function thickness_of(model, part)

@@ -72,19 +72,27 @@ contains
       call take_loaded(contact)
     end if
     call use_next(contact)
-    if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
   end subroutine make_rows
 
-  !> contact%next becomes the list of rows.
+  !> contact%next becomes the list of rows. W stays where their geometry is the same.
   subroutine use_next(contact)
     type(contact_t), intent(inout) :: contact
-    if (contact%w_is_current) &
-        contact%w_is_current = same_geometry(contact%rows, contact%next)
-    if (contact%w_is_current) contact%next%is_rigid(:contact%next%n) = &
-        contact%rows%is_rigid(:contact%rows%n)
+    logical :: is_same
+    is_same = contact%w_is_current
+    if (is_same) is_same = same_geometry(contact%rows, contact%next)
+    if (is_same) contact%next%is_rigid(:contact%next%n) = contact%rows%is_rigid(:contact%rows%n)
     call swap_rows(contact%rows, contact%next)
-    call find_slots(contact%slot, contact%rows)
+    call use_rows(contact, is_same)
   end subroutine use_next
+
+  !> The rows have been replaced: their slots, and W with them but where is_same.
+  subroutine use_rows(contact, is_same)
+    type(contact_t), intent(inout) :: contact
+    logical, intent(in) :: is_same
+    contact%w_is_current = is_same
+    call find_slots(contact%slot, contact%rows)
+    if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
+  end subroutine use_rows
 
   !> Spare rows that carried load in one of the last three solves (forces may alternate) are
   !> solved for from the start.
@@ -158,9 +166,7 @@ contains
       is_complete = .false.
       contact%tally%late_rows = contact%tally%late_rows + below
       call take_marked(contact)
-      contact%w_is_current = .false.
-      call find_slots(contact%slot, contact%rows)
-      if (contact%spare%n > 0) call find_slots(contact%slot, contact%spare)
+      call use_rows(contact, .false.)
     else
       call place_end(contact, u, contact%x_end)
       call find_late(model, contact, u, n)
@@ -235,8 +241,7 @@ contains
       if (.not. any(contact%late(:n)%row == a)) call copy_row(contact%rows, a, contact%next)
     end do
     call swap_rows(contact%rows, contact%next)
-    call find_slots(contact%slot, contact%rows)
-    contact%w_is_current = .false.
+    call use_rows(contact, .false.)
   end subroutine use_late
 
   subroutine add_late(contact, late)

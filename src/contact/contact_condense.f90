@@ -10,7 +10,8 @@ module contact_condense
   use contact_types, only: contact_t
   implicit none
   private
-  public :: interface_outgrown, make_interface, size_schur_inverse, build_w
+  public :: interface_outgrown, make_interface, size_schur_inverse, constrain_interface, &
+      clear_constrained, build_w
 
   !> Dofs of a row: three nodes.
   integer, parameter :: most_dofs = 6
@@ -48,8 +49,32 @@ contains
         deallocate (contact%schur_inverse, contact%column, contact%x_end)
     allocate (contact%schur_inverse(dofs, dofs), contact%column(dofs))
     allocate (contact%x_end(2, dofs/2))
-    contact%w_is_current = .false.
   end subroutine size_schur_inverse
+
+  !> To be called with a new S^-1: dofs of the list, (2, *) direction and node, do not move,
+  !> whatever the force. W must be built from it.
+  subroutine constrain_interface(contact, list)
+    type(contact_t), intent(inout) :: contact
+    integer, intent(in) :: list(:, :)
+    integer :: k
+    contact%constrained = pack(2*contact%slot(list(2, :)) - 2 + list(1, :), &
+        contact%slot(list(2, :)) > 0)
+    do k = 1, size(contact%constrained)
+      contact%schur_inverse(contact%constrained(k), :) = zero
+      contact%schur_inverse(:, contact%constrained(k)) = zero
+    end do
+    contact%w_is_current = .false.
+  end subroutine constrain_interface
+
+  !> No force (2, m) on constrained dofs.
+  pure subroutine clear_constrained(contact, force)
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(inout) :: force(:, :)
+    integer :: k
+    do k = 1, size(contact%constrained)
+      force(1 + mod(contact%constrained(k) - 1, 2), (contact%constrained(k) + 1)/2) = zero
+    end do
+  end subroutine clear_constrained
 
   !> W for the rows, when something has changed. Rows whose both sides are constrained (W_nn =
   !> 0) are left out.

@@ -23,6 +23,10 @@ module contact_pairing
     real(wp), allocatable :: normal(:)         !< normal force [F]
     real(wp), allocatable :: gap(:), slip(:)   !< [L]; no_gap where the node is not listed
     integer, allocatable :: status(:)
+    ! Work space of the areas: nodes that are near or pressed, boundary around them [L2]; parts
+    ! of an edge that are covered.
+    logical, allocatable :: is_near(:)
+    real(wp), allocatable :: around(:), low(:), high(:)
   end type node_forces_t
 
   !> Sums over a pairing for the tables.

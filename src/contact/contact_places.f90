@@ -114,7 +114,12 @@ contains
       call see_edge(own, obstacle, k, list(j), x, u, view, cone, .true., sight)
     end do
     do j = 1, size(list)
-      call look_at_vertices(own, obstacle, k, j, size(list), x, u, view, cone, sight, free)
+      ! Handed on where it is absent, it would be read to see whether it is contiguous.
+      if (present(free)) then
+        call look_at_vertices(own, obstacle, k, j, size(list), x, u, view, cone, sight, free)
+      else
+        call look_at_vertices(own, obstacle, k, j, size(list), x, u, view, cone, sight)
+      end if
     end do
     do j = 1, sight%n
       if (sight%is_kept(j)) call add_edge_place(obstacle, own%node(k), j, x, u, sight)

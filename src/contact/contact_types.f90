@@ -46,6 +46,7 @@ module contact_types
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
+    integer, allocatable :: constrained(:)        !< dofs of the interface, of 2m, that are held
     integer, allocatable :: carried(:, :)         !< (2, *) node, interface node it follows
     !> (2, nodes) motion of the free step and displacement at the end of the step with
     !> contact, right at interface nodes only [L]
@@ -62,6 +63,8 @@ module contact_types
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
+    !> W is that of rows and schur_inverse: so after build_w, until one of them is replaced
+    !> (use_rows, constrain_interface, a restart)
     logical :: w_is_current = .false.
     !> rows and spare are those of the places at the start of the last step
     logical :: rows_are_plain = .false.

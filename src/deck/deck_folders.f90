@@ -32,7 +32,9 @@ contains
         if (folder(len(folder):) == '/' .and. len(folder) > 1) folder = folder(:len(folder) - 1)
         if (name == 'INCLUDE_PATH_RELATIVE') &
             folder = join_path(folder_of(deck%file(cursor%file)%path), folder)
-        longer = [deck%folder, line_t(folder)]
+        allocate (longer(size(deck%folder) + 1))
+        longer(:size(deck%folder)) = deck%folder
+        longer(size(longer))%text = folder
         call move_alloc(longer, deck%folder)
       end if
       if (more) more = next_line(deck%file(cursor%file), cursor)

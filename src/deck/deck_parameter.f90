@@ -303,7 +303,7 @@ contains
     else
       outcome = evaluate(deck, cursor%file, cursor%line, expression%text)
       if (outcome%wrong_at == 0) call check_outcome(kind, outcome)
-      value = value_text(kind, outcome%value)
+      if (outcome%wrong_at == 0) value = value_text(kind, outcome%value)
     end if
     if (outcome%wrong_at > 0) then
       call complain_in(deck, expression, outcome, pair%card)

@@ -4,6 +4,7 @@ module element_base
   use base_kinds, only: wp, zero
   implicit none
   private
+  integer, parameter, public :: most_nodes = 4   !< of an element
 
   type, abstract, public :: element_t
     character(8) :: name = ''
@@ -76,12 +77,14 @@ contains
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(in) :: u(:, :)
-    real(wp) :: strain(3), b(3, 2*size(u, 2))
+    real(wp) :: strain(3), b(3, 2*most_nodes), d(2)
     integer :: i
-    call this%mean_strain_matrix(x, b)
+    call this%mean_strain_matrix(x, b(:, :2*size(u, 2)))
     strain = zero
     do i = 2, size(u, 2)
-      strain = strain + matmul(b(:, 2*i - 1:2*i), u(:, i) - u(:, 1))
+      d(1) = u(1, i) - u(1, 1)
+      d(2) = u(2, i) - u(2, 1)
+      strain = strain + (b(:, 2*i - 1)*d(1) + b(:, 2*i)*d(2))
     end do
   end function element_mean_strain
 

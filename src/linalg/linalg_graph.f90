@@ -21,7 +21,7 @@ module linalg_graph
     real(wp), allocatable :: value(:, :, :)
   end type block_matrix_t
 
-  public :: graph_from_cliques, scalar_product
+  public :: graph_from_cliques, scalar_product, scalar_rows
 
 contains
 
@@ -119,5 +119,25 @@ contains
       y(:, i) = y(:, i) + factor*row
     end do
   end subroutine scalar_product
+
+  !> The same in some rows, digit for digit. (A loop of its own: one shared by both would be
+  !> called for each row.)
+  pure subroutine scalar_rows(graph, s, factor, rows, x, y)
+    type(graph_t), intent(in) :: graph
+    real(wp), intent(in) :: s(:)
+    real(wp), intent(in) :: factor
+    integer, intent(in) :: rows(:)
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: y(:, :)
+    real(wp) :: total(2)
+    integer :: k, m
+    do k = 1, size(rows)
+      total = zero
+      do m = graph%first(rows(k)), graph%first(rows(k) + 1) - 1
+        total = total + s(m)*x(:, graph%column(m))
+      end do
+      y(:, rows(k)) = y(:, rows(k)) + factor*total
+    end do
+  end subroutine scalar_rows
 
 end module linalg_graph

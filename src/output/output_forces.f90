@@ -8,7 +8,7 @@ module output_forces
   use contact_types, only: contact_t
   use model_data, only: model_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
-  use output_tables, only: add_numbers
+  use output_tables, only: add_numbers, add_vector
   implicit none
   private
   public :: write_rcforc, write_rwforc, write_sleout, write_ncforc, write_spcforc
@@ -58,10 +58,13 @@ contains
     type(real_writer_t), intent(in) :: writer
     class(pairing_t), intent(in) :: pairing
     integer, intent(in) :: side
+    real(wp) :: mean(2)
     associate (s => pairing%sums)
-      call add_numbers(file, writer, [s%force(:, side), zero, &
-          half*(s%force(:, side) + s%force_before(:, side)), zero, s%impulse(:, side), zero, &
-          s%normal_force, s%tangential_force])
+      mean = half*(s%force(:, side) + s%force_before(:, side))
+      call add_vector(file, writer, s%force(:, side))
+      call add_vector(file, writer, mean)
+      call add_vector(file, writer, s%impulse(:, side))
+      call add_numbers(file, writer, [s%normal_force, s%tangential_force])
       call add_count(file, s%n_active)
       call add_count(file, s%n_stick)
       call add_count(file, s%n_slip)
@@ -125,7 +128,7 @@ contains
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
-    real(wp) :: pressure
+    real(wp) :: pressure, mean(2)
     integer :: p, k
     do p = 1, size(contact%pairing)
       if (contact%pairing(p)%item%is_wall) cycle
@@ -140,8 +143,10 @@ contains
           call add_count(file, contact%pairing(p)%item%id)
           call add_count(file, c%side(k))
           call add_count(file, model%node_id(c%node(k)))
-          call add_numbers(file, writer, [c%force(:, k), zero, &
-              half*(c%force(:, k) + c%before(:, k)), zero, pressure, c%gap(k), c%slip(k)])
+          mean = half*(c%force(:, k) + c%before(:, k))
+          call add_vector(file, writer, c%force(:, k))
+          call add_vector(file, writer, mean)
+          call add_numbers(file, writer, [pressure, c%gap(k), c%slip(k)])
           call add_count(file, c%status(k))
           call end_row(file)
         end do
@@ -163,7 +168,7 @@ contains
       call begin_row(file, status)
       call add_number(file, writer, time)
       call add_count(file, model%node_id(k))
-      call add_numbers(file, writer, [reaction(:, k), zero])
+      call add_vector(file, writer, reaction(:, k))
       call end_row(file)
     end do
   end subroutine write_spcforc

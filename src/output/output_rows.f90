@@ -8,12 +8,11 @@ module output_rows
   use base_status, only: status_t
   use base_timers, only: timers_t, phase_input, phase_assemble, phase_factor, phase_solve, &
       phase_search, phase_contact, phase_output
-  use element_base, only: element_t
-  use element_registry, only: make_element
+  use element_base, only: most_nodes
   use model_data, only: model_t, corner_count
   use model_state, only: state_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
-  use output_tables, only: add_numbers
+  use output_tables, only: add_numbers, add_vector
   use time_ledger, only: ledger_t
   implicit none
   private
@@ -48,14 +47,17 @@ contains
     type(state_t), intent(in) :: state
     type(ledger_t), intent(in) :: ledger
     type(status_t), intent(inout) :: status
+    real(wp) :: velocity(2)
     integer :: p
     do p = 1, size(model%part)
       call begin_row(file, status)
       call add_number(file, writer, state%time)
       call add_count(file, model%part(p)%id)
       call add_numbers(file, writer, [ledger%part_mass(p), ledger%part_kinetic(p), &
-          ledger%part_internal(p), ledger%part_momentum(:, p), zero, &
-          ledger%part_momentum(:, p)/ledger%part_mass(p), zero])
+          ledger%part_internal(p)])
+      call add_vector(file, writer, ledger%part_momentum(:, p))
+      velocity = ledger%part_momentum(:, p)/ledger%part_mass(p)
+      call add_vector(file, writer, velocity)
       call end_row(file)
     end do
   end subroutine write_matsum
@@ -67,7 +69,7 @@ contains
     type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: mean(2)
+    real(wp) :: mean(2), place(2)
     integer :: k, i
     do k = 1, size(model%requests%history_node)
       i = model%requests%history_node(k)
@@ -76,9 +78,12 @@ contains
       call begin_row(file, status)
       call add_number(file, writer, state%time)
       call add_count(file, model%node_id(i))
-      call add_numbers(file, writer, [state%u(:, i), zero, state%v(:, i), zero, mean, zero, &
-          model%x(:, i) + state%u(:, i), zero])
-      if (allocated(state%a)) call add_numbers(file, writer, [state%a(:, i), zero])
+      call add_vector(file, writer, state%u(:, i))
+      call add_vector(file, writer, state%v(:, i))
+      call add_vector(file, writer, mean)
+      place = model%x(:, i) + state%u(:, i)
+      call add_vector(file, writer, place)
+      if (allocated(state%a)) call add_vector(file, writer, state%a(:, i))
       call end_row(file)
     end do
   end subroutine write_nodout
@@ -91,18 +96,19 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    class(element_t), allocatable :: element
-    real(wp) :: stress(3)
-    integer :: k, e, n
+    real(wp) :: stress(3), x(2, most_nodes), u(2, most_nodes)
+    integer :: k, e, n, i
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
       n = corner_count(model%connectivity(:, e))
-      call make_element(n, element)
-      associate (part => model%part(model%element_part(e)), &
-          corner => model%connectivity(1:n, e))
+      do i = 1, n
+        x(:, i) = model%x(:, model%connectivity(i, e))
+        u(:, i) = state%u(:, model%connectivity(i, e))
+      end do
+      associate (part => model%part(model%element_part(e)))
         associate (material => model%material(part%material)%item)
           stress = matmul(material%moduli(part%plane), &
-              element%mean_strain(model%x(:, corner), state%u(:, corner)))
+              system%element(n)%item%mean_strain(x(:, :n), u(:, :n)))
           call begin_row(file, status)
           call add_number(file, writer, state%time)
           call add_count(file, model%element_id(e))

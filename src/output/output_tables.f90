@@ -23,7 +23,8 @@ module output_tables
   end type tables_t
 
   public :: flush_tables, exchange_tables, retime_tables, check_tables
-  public :: open_tables, any_due, energies_due, close_tables, add_numbers
+  public :: open_tables, any_due, energies_due, close_tables, add_numbers, &
+      add_vector
 
 contains
 
@@ -172,6 +173,17 @@ contains
       call add_number(file, writer, numbers(k))
     end do
   end subroutine add_numbers
+
+  !> Adds a vector of the plane: x, y, 0. (An array that takes sections of others would be
+  !> allocated in each row.)
+  subroutine add_vector(file, writer, v)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    real(wp), intent(in) :: v(2)
+    call add_number(file, writer, v(1))
+    call add_number(file, writer, v(2))
+    call add_number(file, writer, zero)
+  end subroutine add_vector
 
   !> Closes all tables with the way the run ended.
   subroutine close_tables(tables, ending, cycle, status)

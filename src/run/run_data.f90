@@ -3,6 +3,7 @@
 !> through it (run_loop) and tell of it (run_report).
 module run_data
   use assembly_bending, only: bending_t
+  use assembly_part, only: part_t
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, i8
   use base_messages, only: messages_t
@@ -70,11 +71,14 @@ module run_data
     real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
     ! (2, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)
-    ! (2, n), only with prescribed motions or a table of reactions
+    ! Only with prescribed motions or a table of reactions
     logical, allocatable :: active_motion(:)
-    real(wp), allocatable :: given(:, :)                   !< motion of held dofs [L]
-    real(wp), allocatable :: b_whole(:, :)                 !< b before it is cleared
-    real(wp), allocatable :: reaction(:, :)                !< of the step just done [F]
+    type(part_t) :: motion_part            !< columns of A at nodes that are moved at some time
+    type(part_t) :: reaction_part          !< rows of A at nodes that are held at some time
+    integer, allocatable :: reaction_dof(:, :)             !< (2, *) their direction and node
+    real(wp), allocatable :: given(:, :)                   !< (2, n) motion of held dofs [L]
+    real(wp), allocatable :: b_held(:, :)                  !< b in those rows, not cleared
+    real(wp), allocatable :: reaction(:, :)                !< (2, n) of the step just done [F]
     real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
     ! Only in statics of bodies that supports do not hold.
     real(wp), allocatable :: shift(:)                      !< (n) eps M [F/L]

@@ -323,6 +323,8 @@ contains
     type(status_t), intent(inout) :: status
     !> Steps between two looks: then they cost little beside the steps.
     integer, parameter :: apart = 50
+    !> Strain energy beside the largest term below which bodies only fly.
+    real(wp), parameter :: least_strain = 1.0e-6_wp
     if (failed(status)) return
     if (.not. last .and. run%state%cycle < run%looked + apart) return
     run%looked = run%state%cycle
@@ -330,7 +332,8 @@ contains
     if (failed(status)) return
     call run%timers%enter(phase_energy)
     call find_strain_energies(run%model, run%system, run%state, run%ledger)
-    call look_at_bending(run%model, run%system, run%state%u, run%ledger%part_internal, &
+    if (sum(run%ledger%part_internal) > least_strain*run%ledger%largest) &
+        call look_at_bending(run%model, run%system, run%state%u, run%ledger%part_internal, &
         run%state%cycle, run%bending)
     call run%timers%enter(phase_other)
   end subroutine take_looks

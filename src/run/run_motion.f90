@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Prescribed motions and the reactions of held dofs. Only scenes that have motions or ask for
-!> reactions come here.
+!> reactions come here, and they pay for the elements around those dofs.
 module run_motion
-  use assembly_forces, only: add_loads, subtract_internal_force, subtract_damping_force
-  use assembly_system, only: multiply_mass, clear_fixed, list_fixed
+  use assembly_forces, only: add_loads, subtract_internal_force
+  use assembly_part, only: part_t, rows_of_nodes, columns_of_nodes, subtract_part
+  use assembly_system, only: multiply_mass, constrain, clear_fixed, set_fixed, list_dofs
   use base_kinds, only: wp, zero, one
   use contact_work, only: subtract_contact_force
   use model_data, only: motion_t, curve_value
@@ -11,10 +12,37 @@ module run_motion
   use run_static, only: add_shift
   implicit none
   private
-  public :: activate_motions, hold_active, impose_motions, restore_motions, &
-      start_reactions, find_reactions
+  public :: make_motions, activate_motions, hold_active, impose_motions, restore_motions, &
+      start_reactions, keep_right_side, find_reactions
 
 contains
+
+  !> Work space of prescribed motions and reactions; the dofs that are held from the start.
+  subroutine make_motions(run)
+    type(run_t), intent(inout) :: run
+    logical, allocatable :: is_held(:, :)
+    logical :: changed
+    integer :: n, k
+    n = run%system%n
+    allocate (run%reaction(2, n), run%mean_reaction(2, n), is_held(2, n))
+    run%reaction = zero
+    run%mean_reaction = zero
+    is_held = .false.
+    do k = 1, size(run%model%motion)
+      is_held(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
+    end do
+    if (run%plan%motions) then
+      call columns_of_nodes(run%system, any(is_held, dim=1), run%motion_part)
+      allocate (run%given(2, n), run%active_motion(size(run%model%motion)))
+      run%given = zero
+      run%active_motion = .false.
+      call activate_motions(run, run%scheme%h, changed)
+    end if
+    is_held = is_held .or. run%model%fixed
+    call rows_of_nodes(run%system, any(is_held, dim=1), run%reaction_part)
+    run%reaction_dof = list_dofs(is_held)
+    allocate (run%b_held(2, size(run%reaction_part%row)))
+  end subroutine make_motions
 
   !> Which motions act in the step that ends at t1; changed tells that the set of held dofs is
   !> another one, so that the effective matrix must be factored again.
@@ -36,13 +64,15 @@ contains
   !> The held dofs: supports, and the motions that act.
   subroutine hold_active(run)
     type(run_t), intent(inout) :: run
+    logical, allocatable :: is_held(:, :)
     integer :: k
-    run%system%fixed = run%model%fixed
+    allocate (is_held(2, run%system%n))
+    is_held = run%model%fixed
     do k = 1, size(run%model%motion)
       if (run%active_motion(k)) &
-          run%system%fixed(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
+          is_held(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
     end do
-    call list_fixed(run%system)
+    call constrain(run%system, is_held)
   end subroutine hold_active
 
   pure logical function acts(motion, t1, h)
@@ -59,22 +89,29 @@ contains
     real(wp), intent(in) :: t1
     real(wp) :: value
     integer :: k, m
-    run%given = zero
     do k = 1, size(run%model%motion)
-      if (.not. run%active_motion(k)) cycle
       associate (motion => run%model%motion(k))
-        value = motion%factor*curve_value(run%model%curve(motion%curve), t1)
+        value = zero
+        if (run%active_motion(k)) &
+            value = motion%factor*curve_value(run%model%curve(motion%curve), t1)
         do m = 1, size(motion%node)
-          run%given(motion%direction, motion%node(m)) = run%scheme%given_motion(run%state, &
-              motion%direction, motion%node(m), motion%kind, value)
+          associate (given => run%given(motion%direction, motion%node(m)))
+            given = zero
+            if (run%active_motion(k)) given = run%scheme%given_motion(run%state, &
+                motion%direction, motion%node(m), motion%kind, value)
+          end associate
         end do
       end associate
     end do
-    call subtract_product(run, stage, run%given, run%b)
+    call subtract_product(run, stage, run%motion_part, run%given, run%b)
     call clear_fixed(run%system, run%b)
-    do k = 1, size(run%system%fixed_list, 2)
-      associate (d => run%system%fixed_list(1, k), i => run%system%fixed_list(2, k))
-        run%b(d, i) = run%matrix%value(d, d, run%system%graph%position(i, i))*run%given(d, i)
+    do k = 1, size(run%model%motion)
+      if (.not. run%active_motion(k)) cycle
+      associate (d => run%model%motion(k)%direction, node => run%model%motion(k)%node)
+        do m = 1, size(node)
+          run%b(d, node(m)) = run%matrix%value(d, d, &
+              run%system%graph%position(node(m), node(m)))*run%given(d, node(m))
+        end do
       end associate
     end do
   end subroutine impose_motions
@@ -82,24 +119,18 @@ contains
   !> The given motions to the last digit, after the solve.
   subroutine restore_motions(run)
     type(run_t), intent(inout) :: run
-    integer :: k
-    do k = 1, size(run%system%fixed_list, 2)
-      associate (d => run%system%fixed_list(1, k), i => run%system%fixed_list(2, k))
-        run%x(d, i) = run%given(d, i)
-      end associate
-    end do
+    call set_fixed(run%system, run%given, run%x)
   end subroutine restore_motions
 
-  !> b = b - A x, the whole effective matrix.
-  subroutine subtract_product(run, stage, x, b)
+  !> b = b - A x with a part of the effective matrix.
+  subroutine subtract_product(run, stage, part, x, b)
     type(run_t), intent(in) :: run
     integer, intent(in) :: stage
+    type(part_t), intent(in) :: part
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(inout) :: b(:, :)
     associate (s => run%scheme%stage(stage))
-      call multiply_mass(run%system, -s%c_m, x, b)
-      call subtract_internal_force(run%system, s%c_k, x, b)
-      call subtract_damping_force(run%system, s%c_c, x, b)
+      call subtract_part(run%system, part, s%c_m, s%c_c, s%c_k, x, b)
     end associate
     if (allocated(run%shift)) call add_shift(run%shift, -x, b)
   end subroutine subtract_product
@@ -108,14 +139,31 @@ contains
   !> of a step: at t = 0, and where a run goes on that kept none.
   subroutine start_reactions(run)
     type(run_t), intent(inout) :: run
+    real(wp), allocatable :: misfit(:, :)
+    integer :: k
     if (.not. allocated(run%state%a)) return
-    run%b_whole = zero
-    call add_loads(run%model, run%system, run%state%time, one, run%b_whole)
-    call multiply_mass(run%system, -one, run%state%a, run%b_whole)
-    call subtract_internal_force(run%system, one, run%state%u, run%b_whole)
-    call subtract_contact_force(run%contact, -one, run%b_whole)
-    call take_held(run, run%b_whole)
+    allocate (misfit(2, run%system%n))
+    misfit = zero
+    call add_loads(run%model, run%system, run%state%time, one, misfit)
+    call multiply_mass(run%system, -one, run%state%a, misfit)
+    call subtract_internal_force(run%system, one, run%state%u, misfit)
+    call subtract_contact_force(run%contact, -one, misfit)
+    run%reaction = zero
+    do k = 1, size(run%reaction_dof, 2)
+      associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
+        if (run%system%fixed(d, i)) run%reaction(d, i) = -misfit(d, i)
+      end associate
+    end do
   end subroutine start_reactions
+
+  !> b at the nodes that may be held, before it is cleared there.
+  subroutine keep_right_side(run)
+    type(run_t), intent(inout) :: run
+    integer :: k
+    do k = 1, size(run%reaction_part%row)
+      run%b_held(:, k) = run%b(:, run%reaction_part%row(k))
+    end do
+  end subroutine keep_right_side
 
   !> Reactions of the held dofs, A x - b - H' r, for the motion of the step just done, and their
   !> mean over the step as the scheme weighs contact forces; others are zero. motion_work is
@@ -123,31 +171,34 @@ contains
   subroutine find_reactions(run, motion_work)
     type(run_t), intent(inout) :: run
     real(wp), intent(out) :: motion_work
-    run%b = run%b_whole
-    call subtract_product(run, size(run%scheme%stage), run%state%du, run%b)
-    call subtract_contact_force(run%contact, -run%contact%factor, run%b)
-    run%mean_reaction = run%scheme%weight_before*run%reaction
-    if (run%contact%factor < one) run%b = run%b/run%contact%factor
-    call take_held(run, run%b)
-    run%mean_reaction = run%mean_reaction + run%scheme%weight_now*run%reaction
-    if (allocated(run%scheme%conjugate)) then
-      motion_work = sum(run%scheme%conjugate*run%mean_reaction)
-    else
-      motion_work = sum(run%state%du*run%mean_reaction)
-    end if
-  end subroutine find_reactions
-
-  !> reaction = - misfit on the held dofs, zero elsewhere.
-  subroutine take_held(run, misfit)
-    type(run_t), intent(inout) :: run
-    real(wp), intent(in) :: misfit(:, :)
     integer :: k
-    run%reaction = zero
-    do k = 1, size(run%system%fixed_list, 2)
-      associate (d => run%system%fixed_list(1, k), i => run%system%fixed_list(2, k))
-        run%reaction(d, i) = -misfit(d, i)
+    do k = 1, size(run%reaction_part%row)
+      run%b(:, run%reaction_part%row(k)) = run%b_held(:, k)
+    end do
+    call subtract_product(run, size(run%scheme%stage), run%reaction_part, run%state%du, run%b)
+    call subtract_contact_force(run%contact, -run%contact%factor, run%b)
+    motion_work = zero
+    do k = 1, size(run%reaction_dof, 2)
+      associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
+        run%mean_reaction(d, i) = run%scheme%weight_before*run%reaction(d, i)
+        run%reaction(d, i) = zero
+        if (run%system%fixed(d, i)) run%reaction(d, i) = -run%b(d, i)/run%contact%factor
+        run%mean_reaction(d, i) = run%mean_reaction(d, i) &
+            + run%scheme%weight_now*run%reaction(d, i)
+        motion_work = motion_work + conjugate_motion(run, d, i)*run%mean_reaction(d, i)
       end associate
     end do
-  end subroutine take_held
+  end subroutine find_reactions
+
+  !> The motion of a dof that does work with the mean forces of the step [L].
+  pure real(wp) function conjugate_motion(run, direction, node)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: direction, node
+    if (allocated(run%scheme%conjugate)) then
+      conjugate_motion = run%scheme%conjugate(direction, node)
+    else
+      conjugate_motion = run%state%du(direction, node)
+    end if
+  end function conjugate_motion
 
 end module run_motion

@@ -7,6 +7,7 @@ module run_setup
   use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
+  use contact_condense, only: constrain_interface
   use contact_search, only: update_lists
   use contact_setup, only: make_contact, contact_nodes
   use deck_keywords, only: fill_table
@@ -17,7 +18,7 @@ module run_setup
   use model_data, only: controls_t
   use model_state, only: make_state
   use run_data, only: run_t
-  use run_motion, only: activate_motions, start_reactions
+  use run_motion, only: make_motions, start_reactions
   use run_plan, only: make_plan, add_feature
   use run_static, only: make_shift
   use scene_model, only: make_scene
@@ -52,7 +53,8 @@ contains
     call run%timers%enter(phase_other)
   end subroutine read_scene
 
-  !> Makes everything that the plan needs. Nothing is written.
+  !> Makes everything that the plan needs; what has failed is the last thing made. Nothing is
+  !> written.
   subroutine set_up(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
@@ -79,23 +81,28 @@ contains
     end if
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
-    call make_motions(run)
+    if (run%plan%reactions) call make_motions(run)
     call run%scheme%start(run%model, run%system, run%state, status)
+    if (failed(status)) return
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     run%ledger%staggered = run%scheme%staggered
     call make_bending(run%model, run%bending)
     if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
         'the initial energy is no finite number', hint='check units and initial velocities')
+    if (failed(status)) return
     call make_solver(run%solver_options, run%solver, status)
+    if (failed(status)) return
     allocate (run%b(2, run%system%n), run%x(2, run%system%n))
     run%x = zero
     if (run%plan%loads) then
       allocate (run%load_0(2, run%system%n), run%load_1(2, run%system%n))
       run%load_0 = zero
     end if
-    call first_lists(run, status)
+    if (run%plan%contact) call first_lists(run, status)
+    if (failed(status)) return
     call factor_matrix(run, .true., status)
+    if (failed(status)) return
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
@@ -108,22 +115,6 @@ contains
     if (controls%is_static) static_steps = steps + 1
     if (controls%static_until > zero) static_steps = nint(controls%static_until/controls%dt)
   end function static_steps
-
-  !> Work space of prescribed motions and reactions; the dofs that are held from the start.
-  subroutine make_motions(run)
-    type(run_t), intent(inout) :: run
-    logical :: changed
-    integer :: n
-    if (.not. run%plan%reactions) return
-    n = run%system%n
-    allocate (run%b_whole(2, n), run%reaction(2, n), run%mean_reaction(2, n))
-    run%reaction = zero
-    run%mean_reaction = zero
-    if (.not. run%plan%motions) return
-    allocate (run%given(2, n), run%active_motion(size(run%model%motion)))
-    run%active_motion = .false.
-    call activate_motions(run, run%scheme%h, changed)
-  end subroutine make_motions
 
   !> Long steps make the effective matrix nearly singular for rigid motions, and the solution
   !> loses digits that the ledger needs: each solve multiplies a momentum by 1 + eps times
@@ -171,7 +162,6 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     logical :: new_interface
-    if (.not. run%plan%contact .or. failed(status)) return
     call run%timers%enter(phase_search)
     call update_lists(run%model, run%contact, run%state%u, run%state%du, run%state%v, zero, &
         run%scheme%h, 0, run%scheme%h, new_interface, status)
@@ -195,6 +185,7 @@ contains
     m = size(run%contact%interface_node)
     if (again) then
       call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
+      if (failed(status)) return
       run%analyses = run%analyses + 1
       if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
       allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
@@ -204,7 +195,9 @@ contains
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
-    if (m > 0) call interface_flexibility(run)
+    if (m == 0 .or. failed(status)) return
+    call run%solver%flexibility(run%contact%schur_inverse)
+    call constrain_interface(run%contact, run%system%fixed_list)
   end subroutine factor_matrix
 
   subroutine shift_matrix(run)
@@ -231,20 +224,5 @@ contains
     call factor_matrix(run, .false., status)
     call plan_refinement(run)
   end subroutine start_dynamics
-
-  !> S^-1 of the interface; fixed dofs do not move, whatever the force.
-  subroutine interface_flexibility(run)
-    type(run_t), intent(inout) :: run
-    integer :: k, row
-    call run%solver%flexibility(run%contact%schur_inverse)
-    do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%slot(run%system%fixed_list(2, k))
-      if (row == 0) cycle
-      row = 2*row - 2 + run%system%fixed_list(1, k)
-      run%contact%schur_inverse(row, :) = zero
-      run%contact%schur_inverse(:, row) = zero
-    end do
-    run%contact%w_is_current = .false.
-  end subroutine interface_flexibility
 
 end module run_setup

@@ -8,11 +8,12 @@ module run_stage
   use base_status, only: status_t
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_contact
+  use contact_condense, only: clear_constrained
   use contact_stage, only: solve_contact, correct_contact
   use linalg_solver, only: solve_whole
   use output_contact, only: write_contact_problem
   use run_data, only: run_t
-  use run_motion, only: impose_motions, restore_motions
+  use run_motion, only: impose_motions, restore_motions, keep_right_side
   use run_static, only: add_shift
   use time_ledger, only: largest_work
   implicit none
@@ -72,8 +73,6 @@ contains
     integer, parameter :: most_passes = 3
     integer :: pass
     logical :: done
-    run%b_kept = run%b
-    if (run%plan%motions) run%b_kept = run%b_whole
     call refine_motion(run, stage)
     if (.not. run%plan%contact) return
     do pass = 1, most_passes
@@ -130,7 +129,8 @@ contains
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
-    if (run%plan%reactions) run%b_whole = run%b
+    if (run%plan%reactions) call keep_right_side(run)
+    if (run%state%cycle >= run%plan%refined_from) run%b_kept = run%b
     if (run%plan%motions) then
       call impose_motions(run, stage, t1)
     else if (run%system%any_fixed) then
@@ -151,7 +151,7 @@ contains
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
-    call clear_constrained_forces(run)
+    call clear_constrained(run%contact, run%force)
     run%x_last = run%b_last + run%force
     call run%solver%solve_last(run%x_last)
   end subroutine add_contact
@@ -171,15 +171,6 @@ contains
           p%w%matrix, p%q, p%mu, p%r, status)
     end associate
   end subroutine dump_contact
-
-  subroutine clear_constrained_forces(run)
-    type(run_t), intent(inout) :: run
-    integer :: k, row
-    do k = 1, size(run%system%fixed_list, 2)
-      row = run%contact%slot(run%system%fixed_list(2, k))
-      if (row > 0) run%force(run%system%fixed_list(1, k), row) = zero
-    end do
-  end subroutine clear_constrained_forces
 
   !> Loads at both ends of the step, and their weighted sum into b.
   subroutine weigh_loads(run, stage, t1)

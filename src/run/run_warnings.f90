@@ -75,7 +75,7 @@ contains
       case (growth)
         text = 'the energy rose by '//to_text(run%ledger%largest_growth)// &
             ' of the largest term; first seen at '//since//': take a smaller step'
-        if (run%model%controls%scheme == 'NEWMARK') text = text//', or SCHEME THETA'
+        if (run%scheme%weight_before > zero) text = text//', or SCHEME THETA'
       case (overlap)
         text = 'bodies overlap by up to '//to_text(tally%overlap_share)// &
             ' of the shorter edge, deepest at node '// &
@@ -212,10 +212,11 @@ contains
     type(messages_t), intent(in) :: messages
     integer, intent(in) :: k
     integer :: m
-    is_first = .true.
+    is_first = .false.
     do m = 1, k - 1
-      is_first = is_first .and. messages%item(m)%kind /= messages%item(k)%kind
+      if (messages%item(m)%kind == messages%item(k)%kind) return
     end do
+    is_first = .true.
   end function is_first
 
   pure function line(messages, k) result(text)

@@ -3,7 +3,7 @@
 !> cK K, the right-hand side of the free motion, and the update; contact is posed on the motion
 !> x of the stage by the one contact routine, which is never told which scheme calls it.
 module time_base
-  use assembly_system, only: system_t, multiply_mass
+  use assembly_system, only: system_t
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t
   use model_data, only: model_t
@@ -119,13 +119,24 @@ contains
   end subroutine nothing_to_begin
 
   !> x.M y [F L for velocities].
-  real(wp) function mass_product(system, x, y)
+  pure real(wp) function mass_product(system, x, y)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), y(:, :)
-    real(wp) :: z(2, system%n)
-    z = zero
-    call multiply_mass(system, one, y, z)
-    mass_product = sum(x*z)
+    real(wp) :: row(2)
+    integer :: i, k
+    mass_product = zero
+    do i = 1, system%n
+      if (system%mass_is_diagonal) then
+        row = system%lumped(i)*y(:, i)
+      else
+        row = zero
+        do k = system%graph%first(i), system%graph%first(i + 1) - 1
+          row = row + system%mass(k)*y(:, system%graph%column(k))
+        end do
+      end if
+      mass_product = mass_product + x(1, i)*row(1)
+      mass_product = mass_product + x(2, i)*row(2)
+    end do
   end function mass_product
 
 end module time_base

@@ -216,7 +216,7 @@ def frequencies():
 
 def silent():
     """Bars of one element over the height that meet are in one-dimensional waves: silent, with
-    contraction, friction, another scheme. Of the decks of input/ the one of all keywords alone
+    contraction, friction, another scheme; cut into triangles too. Of the decks of input/ the one of all keywords alone
     is told to lock: its base of 3 x 1 elements gives way a quarter less than a fine one."""
     for name, options in (
         ("plain", dict(nx=100)),
@@ -230,7 +230,12 @@ def silent():
     ):
         _, folder = bars(name.replace(" ", "_"), **options)
         with open(os.path.join(folder, "bipact.log")) as log:
-            check("bending" not in log.read(), name + " is silent")
+            check("WARNING bending" not in log.read(), name + " is silent")
+        if name == "NEWMARK":
+            continue  # the energy that it makes shakes triangles, which are no mirror images
+        with open(folder + ".k") as deck:
+            _, code, errors = run_text("halved", halved(deck.read()), "--quiet")
+        check(code == 0 and "WARNING bending" not in errors, name + ", triangles: " + errors)
     locked = []
     decks = glob.glob(os.path.join(ROOT, "input", "*", "*.k"))
     check(len(decks) > 10, "the decks of input/")
@@ -243,6 +248,22 @@ def silent():
     lack = 1.0 - base[1] / base[8]
     show("the base of every_keyword.k lacks %.3f" % lack)
     check(lack > 0.2, "the base lacks %g" % lack)
+
+
+def halved(text):
+    """A deck of quadrilaterals with two triangles in the place of each."""
+    out, count, inside = [], 0, False
+    for line in text.splitlines():
+        inside = line.startswith("*ELEMENT_SHELL") if line.startswith("*") else inside
+        if not inside or line[:1] in "*$":
+            out += [line]
+            continue
+        _, part, a, b, c, d = map(int, line.split())
+        out += ["%d,%d,%d,%d,%d,%d" % (count + 1, part, a, b, c, c)]
+        out += ["%d,%d,%d,%d,%d,%d" % (count + 2, part, a, c, d, d)]
+        count += 2
+    assert count > 0
+    return "\n".join(out) + "\n"
 
 
 def push_down(strip):

@@ -639,30 +639,14 @@ def node_card():
         "field DOF: direction X of node 15 is fixed",
         problems=1,
     )
-    refused(
-        "TC 8",
-        deck(nodes=held_nodes(8, 13)),
-        "field TC: expected an integer >= 0 and <= 7",
-        problems=1,
-    )
-    refused(
-        "TC -1",
-        deck(nodes=held_nodes(-1, 13)),
-        "field TC: expected an integer >= 0 and <= 7",
-        problems=1,
-    )
-    refused(
-        "TC 1.5",
-        deck(nodes=held_nodes(1.5, 13)),
-        "field TC: expected an integer >= 0 and <= 7",
-        problems=1,
-    )
-    refused(
-        "RC 9",
-        deck(nodes=held_nodes(7, 13, rc=9)),
-        "field RC: expected an integer >= 0 and <= 7",
-        problems=1,
-    )
+    for name, nodes in (
+        ("TC 8", held_nodes(8, 13)),
+        ("TC -1", held_nodes(-1, 13)),
+        ("TC 1.5", held_nodes(1.5, 13)),
+        ("RC 9", held_nodes(7, 13, rc=9)),
+    ):
+        words = "field %s: expected an integer >= 0 and <= 7" % name.split()[0]
+        refused(name, deck(nodes=nodes), words, problems=1)
     refused(
         "TC one column off",
         deck(

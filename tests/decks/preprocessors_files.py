@@ -153,26 +153,7 @@ def blank_lines():
     one may come that is blank."""
     note = ["blank lines between cards are passed over"]
     text = deck()
-    for name in (
-        "nodes",
-        "elements",
-        "parts",
-        "left material",
-        "held",
-        "left set",
-        "support",
-        "curve",
-        "load",
-        "contact",
-        "tables",
-        "nodes of nodout",
-        "elements of elout",
-        "title",
-        "end",
-        "general",
-        "dynamics",
-        "time",
-    ):
+    for name in sorted(set(SECTIONS) - {"early", "more", "velocity"}):
         after = SECTIONS[name] + "\n"
         same("after " + name, deck(**{name.replace(" ", "_"): after}), notes=note)
         same(
@@ -189,16 +170,7 @@ def blank_lines():
             same("among cards of " + name, deck(**{name.replace(" ", "_"): wide}), notes=note)
     points = SECTIONS["curve"].split("\n")
     same("among points", deck(curve="\n".join(points[:3] + ["", " "] + points[3:])), notes=note)
-    for name in (
-        "nodes",
-        "elements",
-        "left material",
-        "held",
-        "left set",
-        "support",
-        "curve",
-        "load",
-    ):
+    for name in "nodes,elements,left material,held,left set,support,curve,load".split(","):
         first, rest = SECTIONS[name].split("\n", 1)
         same(
             "before the cards of " + name,

@@ -75,7 +75,7 @@ def curves():
                 "*DEFINE_CURVE",
                 "*PARAMETER\n" + pair("Rtwo", "2.0", "Rfour", "4.0") + "\n*DEFINE_CURVE",
             )
-        same("curve: " + name, text, expected, notes=["stays constant"])
+        same("curve: " + name, text, expected, notes=["it stays at"])
     begin = 0.999 * 0.004
     for name, head, lines, expected in (
         (
@@ -125,7 +125,7 @@ def curves():
             "curve: " + name,
             curve_deck(head, *points(*lines)),
             curve_deck(fixed(1), *points(*expected)),
-            notes=["stays constant"],
+            notes=["it stays at"],
         )
     same(
         "curve: it begins late",
@@ -152,7 +152,7 @@ def curves():
                 *points((0.0, 0.0), (begin, 0.0), (0.004, 0.2), (0.006, 0.5))
             )
         ),
-        notes=["stays constant"],
+        notes=["it stays at"],
     )
     for name, head, lines, words in (
         (
@@ -339,7 +339,7 @@ def no_time_card():
     NEWMARK."""
     theta = ["no *BIPACT_TIME: the scheme is THETA with theta = xi = 1/2"]
     warning = [
-        "no *BIPACT_TIME, but GAMMA or BETA: the scheme is NEWMARK",
+        "no *BIPACT_TIME, but GAMMA or BETA: it is NEWMARK",
         "WARNING energy-growth",
     ]
     newmark = deck(time="*BIPACT_TIME\n   NEWMARK")

@@ -223,94 +223,49 @@ def parameters():
             words,
             problems=1,
         )
-    refused(
-        "expression: the second line",
-        deck(
-            early="*PARAMETER_EXPRESSION\n"
-            + expression("R t", "1.0+")
-            + "\n"
-            + expression("", " 2.0/0"),
-            section=with_value("0.5"),
+    one = "*PARAMETER_EXPRESSION\n"
+    for name, early, words in (
+        (
+            "the second line",
+            [expression("R t", "1.0+"), expression("", " 2.0/0")],
+            (":14, column 15: ", "division by zero"),
         ),
-        ":14, column 15: ",
-        "division by zero",
-        problems=1,
-    )
-    refused(
-        "expression: more than twenty lines",
-        deck(
-            early="*PARAMETER_EXPRESSION\n"
-            + expression("Rt", "0.5")
-            + ("\n" + expression("", "+0.0")) * 20,
-            section=with_value("0.5"),
+        (
+            "more than twenty lines",
+            [expression("Rt", "0.5")] + 20 * [expression("", "+0.0")],
+            ("*PARAMETER_EXPRESSION card 1", "20 lines"),
         ),
-        "*PARAMETER_EXPRESSION card 1",
-        "20 lines",
-        problems=1,
-    )
-    refused(
-        "expression: an integer that is none",
-        deck(
-            early="*PARAMETER_EXPRESSION\n" + expression("I n", "5/2.0"),
-            section=with_value("0.5"),
+        (
+            "an integer that is none",
+            [expression("I n", "5/2.0")],
+            ("expected an integer, the value is 2.5",),
         ),
-        "expected an integer, the value is 2.5",
-        problems=1,
-    )
-    refused(
-        "expression: a name that comes later",
-        deck(
-            early="*PARAMETER_EXPRESSION\n"
-            + expression("R t", "2*u")
-            + "\n"
-            + expression("R u", "1.0"),
-            section=with_value("0.5"),
+        (
+            "an integer beyond all integers",
+            [expression("I n", "3.0e100/2")],
+            ("expected an integer, the value is 1.5E100",),
         ),
-        'undefined parameter "U"',
-        problems=1,
-    )
-    refused(
-        "expression: its own name",
-        deck(
-            early="*PARAMETER_EXPRESSION\n" + expression("R t", "t+1"),
-            section=with_value("0.5"),
+        (
+            "a name that comes later",
+            [expression("R t", "2*u"), expression("R u", "1.0")],
+            ('undefined parameter "U"',),
         ),
-        'undefined parameter "T"',
-        problems=1,
-    )
-    refused(
-        "expression: twice",
-        deck(
-            early="*PARAMETER_EXPRESSION\n"
-            + expression("R t", "1")
-            + "\n"
-            + expression("R t", "1"),
-            section=with_value("0.5"),
+        ("its own name", [expression("R t", "t+1")], ('undefined parameter "T"',)),
+        (
+            "twice",
+            [expression("R t", "1"), expression("R t", "1")],
+            ("parameter T is defined twice",),
         ),
-        "parameter T is defined twice",
-        problems=1,
-    )
-    refused(
-        "expression: a tab",
-        deck(
-            early="*PARAMETER_EXPRESSION\n" + expression("R t", "1+\t2"),
-            section=with_value("0.5"),
+        ("a tab", [expression("R t", "1+\t2")], ("*PARAMETER_EXPRESSION",)),
+        (
+            "a word in it",
+            ["Cw," + "THETA", one + expression("R t", "1+w")],
+            ('"W" is a word, not a number',),
         ),
-        "*PARAMETER_EXPRESSION",
-        problems=1,
-    )
-    refused(
-        "expression: a word in it",
-        deck(
-            early="*PARAMETER\n"
-            + pair("Cw", "THETA")
-            + "\n*PARAMETER_EXPRESSION\n"
-            + expression("R t", "1+w"),
-            section=with_value("0.5"),
-        ),
-        '"W" is a word, not a number',
-        problems=1,
-    )
+    ):
+        head = "*PARAMETER\n" if early[0].startswith("C") else one
+        text = deck(early=head + "\n".join(early), section=with_value("0.5"))
+        refused("expression: " + name, text, *words, problems=1)
 
 
 LOCAL = "*PARAMETER_LOCAL\n"

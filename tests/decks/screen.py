@@ -14,6 +14,7 @@ from scenes import BIPACT, ROOT, TMP, bipact, check, deck, finish, make_bars, ru
 import make_scenes
 
 NEWMARK = os.path.join(ROOT, "input", "lessons", "newmark_gains_energy.k")
+GAMMA_CARD = re.compile(r"(\*CONTROL_IMPLICIT_DYNAMICS\n(?:\$.*\n)*).*\n")
 TIME_CARD = re.compile(r"\*BIPACT_TIME\n(\$.*\n)*[^$*].*\n")
 
 
@@ -61,7 +62,10 @@ SPIN = "*INITIAL_VELOCITY_GENERATION", "2,2,2.0,0.0,0.0", "0.5,5.5,0.0,0.0,0.0,1
 # kind: deck, what its line says of place, step and remedy
 KINDS = {
     "energy-growth": (lesson, r"step \d+, time \S+: take a smaller step, or SCHEME THETA"),
-    "scheme": (lambda: TIME_CARD.sub("", lesson()), r"choose SCHEME THETA"),
+    "scheme": (
+        lambda: GAMMA_CARD.sub(r"\g<1>1,0.5\n", TIME_CARD.sub("", lesson())),
+        r"choose SCHEME THETA",
+    ),
     "overlap": (lambda: from_behind("segments", 60.0).text(), r"node \d+; .*step \d+, time \S+: take"),
     "rotation": (lambda: blocks(*SPIN, tend=0.1), r"element \d+ .*step \d+, time .*end the run"),
     "wedging": (wedge, r"node \d+, step \d+, time \S+: .*try"),

@@ -3,13 +3,21 @@ keywords that public decks of the format use most. What is said of each stands i
 to the letter: notes and warnings of those that run, messages of those that are refused.
 `styles.py --write` makes that file anew (read the difference!)."""
 
+import atexit
 import os
 import re
 import shutil
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+os.environ.setdefault("ROOT", ROOT)
+os.environ.setdefault("BIPACT", os.path.join(ROOT, "bin", "bipact"))
+if "TMP" not in os.environ:
+    os.environ["TMP"] = tempfile.mkdtemp()
+    atexit.register(shutil.rmtree, os.environ["TMP"])
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
 import plain
 import scenes
 from decks import DECKS, FREQUENT

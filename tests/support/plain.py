@@ -147,7 +147,8 @@ def notes_of(folder):
     """Notes and warnings of the log, one a line; what the run itself notes is left out."""
     with open(os.path.join(folder, "bipact.log")) as log:
         found = [x.strip() for x in log if x.startswith(("NOTE ", "WARNING "))]
-    return [x for x in found if "closing overlaps gave back" not in x]
+    of_the_run = ("closing overlaps gave back", "WARNING bending")
+    return [x for x in found if not any(words in x for words in of_the_run)]
 
 
 _plain = {}

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Nothing is allocated in a sweep, in a Newton step, in a time step.
+!> Nothing is allocated in a sweep, in a Newton step, in a time step, in a row of a table.
 program test_allocations
+  use base_files, only: remove_file
   use base_kinds, only: wp, zero
   use base_status, only: status_t, failed
   use base_strings, only: to_text
@@ -11,11 +12,14 @@ program test_allocations
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, local_names, &
       size_cone_work, solver_anderson, solver_gs, solver_prox
   use count_allocations, only: allocations_so_far
+  use deck_names, only: table_count, table_names
   use deck_parameter, only: override_t
+  use output_tables, only: open_tables, close_tables, flush_tables
   use random_contacts, only: make_problem
   use run_data, only: run_t
   use run_loop, only: advance
   use run_setup, only: read_scene, set_up
+  use run_tables, only: write_rows
   implicit none
 
   call test_start('allocations')
@@ -25,8 +29,12 @@ program test_allocations
   call test_iterations(3)
   call test_step_solver()
   call test_newton()
-  call test_steps('input/two_bars/theta.k', 400)
-  call test_steps('input/two_bars/newmark.k', 400)
+  call test_steps('input/two_bars/theta.k', 400, 0.5_wp)
+  call test_steps('input/two_bars/theta.k', 400, 0.6_wp)
+  call test_steps('input/two_bars/newmark.k', 400, 0.5_wp)
+  call test_steps('input/two_bars/newmark.k', 400, 0.6_wp)
+  call test_rows('input/two_bars/newmark.k', 150)
+  call test_rows('input/cards/every_keyword.k', 60)
   call test_end()
 
 contains
@@ -135,19 +143,19 @@ contains
     call check_equal(allocations_so_far() - before, 0, 'the solver of a step')
   end subroutine test_step_solver
 
-  !> Steps of a scene before, in and after its impact.
-  subroutine test_steps(deck, steps)
+  !> Steps of a scene before, in and after its impact; weight: theta and xi, or gamma.
+  subroutine test_steps(deck, steps, weight)
     character(*), intent(in) :: deck
     integer, intent(in) :: steps
+    real(wp), intent(in) :: weight
     type(run_t) :: run
-    type(override_t) :: overrides(1)
     type(status_t) :: status
+    character(:), allocatable :: name
     integer :: before, lists, quiet, allocated, k
-    overrides(1)%name = 'dt'
-    overrides(1)%value = '1e-4'
-    call read_scene(deck, overrides, run, status)
-    call set_up(run, status)
-    call check_true(.not. failed(status), deck//' is set up')
+    name = deck//' '//to_text(weight)
+    call start(deck, weight, run, status)
+    call check_true(.not. failed(status), name//' is set up')
+    call check_true(run%scheme%dissipates .eqv. weight > 0.5_wp, name//': energy of the scheme')
     quiet = 0
     allocated = 0
     do k = 1, steps
@@ -159,10 +167,63 @@ contains
       quiet = quiet + 1
       allocated = allocated + (allocations_so_far() - before)
     end do
-    call check_true(run%contact%tally%solves > 0, deck//' has its impact')
-    call check_true(allocated == 0, deck//': none in a step')
-    call check_true(quiet > steps/2, deck//': most steps make no lists')
+    call check_true(run%contact%tally%solves > 0, name//' has its impact')
+    call check_true(allocated == 0, name//': none in a step')
+    call check_true(quiet > steps/2, name//': most steps make no lists')
   end subroutine test_steps
+
+  !> Rows of each table that a deck asks for, of so many nodes and elements as its buffer holds,
+  !> after some steps.
+  subroutine test_rows(deck, steps)
+    character(*), intent(in) :: deck
+    integer, intent(in) :: steps
+    type(run_t) :: run
+    type(status_t) :: status
+    logical :: on(table_count)
+    integer :: before, table, k
+    call start(deck, 0.5_wp, run, status)
+    run%model%requests%history_node = [(k, k=1, min(14, run%model%nodes))]
+    run%model%requests%history_element = [(k, k=1, min(6, run%model%elements))]
+    call open_tables(run%tables, run%model, '.', run%scheme%has_acceleration, .false., status)
+    do k = 1, steps
+      call advance(run, status)
+    end do
+    call check_true(.not. failed(status) .and. run%contact%rows%n > 0, deck//' is in contact')
+    on = run%tables%file%on
+    do table = 1, table_count
+      run%tables%file%on = .false.
+      if (.not. on(table)) cycle
+      run%tables%file(table)%on = .true.
+      call write_rows(run, .true., status)
+      call flush_tables(run%tables, status)
+      before = allocations_so_far()
+      call write_rows(run, .true., status)
+      call check_equal(allocations_so_far() - before, 0, deck//': a row of '// &
+          trim(table_names(table)))
+    end do
+    run%tables%file%on = on
+    call close_tables(run%tables, 'done', 1, status)
+    do table = 1, table_count
+      if (on(table)) call remove_file(run%tables%file(table)%path)
+    end do
+  end subroutine test_rows
+
+  !> A scene of the deck with steps of 1e-4.
+  subroutine start(deck, weight, run, status)
+    character(*), intent(in) :: deck
+    real(wp), intent(in) :: weight
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    type(override_t) :: overrides(1)
+    overrides(1)%name = 'dt'
+    overrides(1)%value = '1e-4'
+    call read_scene(deck, overrides, run, status)
+    run%model%controls%theta = weight
+    run%model%controls%xi = weight
+    run%model%controls%gamma = weight
+    run%model%controls%beta = 0.25_wp*(weight + 0.5_wp)**2
+    call set_up(run, status)
+  end subroutine start
 
   !> What makes lists, counted.
   integer function lists_made(run)

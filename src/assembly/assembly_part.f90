@@ -1,0 +1,73 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Products with a part of the effective matrix, for a few nodes of a large mesh: some rows of
+!> it, or some columns. Each sum has the terms of the whole product in the same order, so its
+!> digits are the same.
+module assembly_part
+  use assembly_forces, only: subtract_element_forces
+  use assembly_system, only: system_t, add_mass_rows
+  use base_kinds, only: wp
+  implicit none
+  private
+
+  type, public :: part_t
+    integer, allocatable :: row(:)      !< nodes whose rows of M are taken
+    integer, allocatable :: element(:)  !< elements that are taken, in increasing order
+    integer, allocatable :: damped(:)   !< those of them that C has
+  end type part_t
+
+  public :: rows_of_nodes, columns_of_nodes, subtract_part
+
+contains
+
+  !> The part that gives A x at the nodes marked, whatever x (2, n).
+  subroutine rows_of_nodes(system, marked, part)
+    type(system_t), intent(in) :: system
+    logical, intent(in) :: marked(:)
+    type(part_t), intent(out) :: part
+    integer :: k
+    part%row = pack([(k, k=1, system%n)], marked)
+    call find_elements(system, marked, part)
+  end subroutine rows_of_nodes
+
+  !> The part that gives A x at all nodes for an x (2, n) that is zero but at the nodes marked.
+  subroutine columns_of_nodes(system, marked, part)
+    type(system_t), intent(in) :: system
+    logical, intent(in) :: marked(:)
+    type(part_t), intent(out) :: part
+    integer :: k
+    associate (first => system%graph%first, column => system%graph%column)
+      part%row = pack([(k, k=1, system%n)], &
+          [(any(marked(column(first(k):first(k + 1) - 1))), k=1, system%n)])
+    end associate
+    call find_elements(system, marked, part)
+  end subroutine columns_of_nodes
+
+  !> Elements with a node that is marked.
+  subroutine find_elements(system, marked, part)
+    type(system_t), intent(in) :: system
+    logical, intent(in) :: marked(:)
+    type(part_t), intent(inout) :: part
+    logical, allocatable :: is_taken(:)
+    integer :: e
+    allocate (is_taken(size(system%corner, 2)))
+    do e = 1, size(is_taken)
+      is_taken(e) = any(marked(system%corner(:, e)))
+    end do
+    part%element = pack([(e, e=1, size(is_taken))], is_taken)
+    part%damped = pack(system%damped, is_taken(system%damped))
+  end subroutine find_elements
+
+  !> b = b - (cM M + cC C + cK K) x with the part; right at the nodes that it was made for, or
+  !> everywhere for its columns. x, b (2, n).
+  subroutine subtract_part(system, part, c_m, c_c, c_k, x, b)
+    type(system_t), intent(in) :: system
+    type(part_t), intent(in) :: part
+    real(wp), intent(in) :: c_m, c_c, c_k
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: b(:, :)
+    call add_mass_rows(system, part%row, -c_m, x, b)
+    call subtract_element_forces(system, part%element, c_k, x, b)
+    call subtract_element_forces(system, part%damped, c_c, x, b)
+  end subroutine subtract_part
+
+end module assembly_part
