@@ -15,7 +15,7 @@
 !> Solution. Springs in a row: x_k = k S^-1 p = k (2, -1), and the flexibility of node 3, what
 !> it yields to a force on it, is 3 S^-1 = [2 -1; -1 2].
 !>
-!> Shown: a graph from elements, a block matrix on it, analyse, factor, forward, solve_last,
+!> Shown: a graph from elements, a block matrix on it, analyse, factor, forward, solve_schur,
 !> backward, flexibility. See also: doc/library.md, examples/cone_small.f90 (what is done with
 !> the flexibility).
 !>
@@ -48,7 +48,7 @@ program ldlt_small
   class(solver_t), allocatable :: solver
   type(status_t) :: status
   real(wp) :: b(2, nodes), x(2, nodes), exact(2, nodes), f(2, 2), dense(2*nodes, 2*nodes)
-  real(wp) :: x_last(2, size(last)), residual
+  real(wp) :: x_interface(2, size(last)), residual
   integer :: k
 
   ! Nodes of an element are neighbours: the springs hold (1), (1, 2) and (2, 3).
@@ -75,9 +75,9 @@ program ldlt_small
   end if
 
   ! Once per right-hand side.
-  call solver%forward(b, x_last)
-  call solver%solve_last(x_last)
-  call solver%backward(x_last, x)
+  call solver%forward(b, x_interface)
+  call solver%solve_schur(x_interface)
+  call solver%backward(x_interface, x)
   call solver%flexibility(f)
 
   call fill_dense()

@@ -9,7 +9,7 @@ module assembly_bending
   use base_kinds, only: wp, zero, one, half
   use element_bending, only: mode_amplitude, quad_mode_energy, pair_mode_energy, &
       bending_energy
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   implicit none
   private
 
@@ -104,7 +104,7 @@ contains
     n = 0
     do e = 1, model%elements
       associate (c => model%connectivity(:, e))
-        if (corner_count(c) /= 3) cycle
+        if (node_count(c) /= 3) cycle
         do k = 1, 3
           n = n + 1
           edge(:, n) = [c(k), c(1 + mod(k, 3)), c(1 + mod(k + 1, 3)), model%element_part(e)]
@@ -172,7 +172,7 @@ contains
     bending%now = bending_sums_t()
     bending%now%strain = strain
     do e = 1, model%elements
-      if (corner_count(model%connectivity(:, e)) == 3) cycle
+      if (node_count(model%connectivity(:, e)) == 3) cycle
       p = model%element_part(e)
       call add_quadrilateral(model, system, e, bending%moduli(3, p), u, bending%now(p))
     end do

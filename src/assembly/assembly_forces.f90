@@ -8,8 +8,8 @@ module assembly_forces
   use model_data, only: model_t, curve_value
   implicit none
   private
-  public :: subtract_internal_force, subtract_damping_force, subtract_element_forces, &
-      damping_product, strain_energies, &
+  public :: subtract_internal_force, subtract_layer_force, subtract_element_forces, &
+      layer_product, strain_energies, &
       strain_product, element_product, add_loads, largest_rotation, first_inverted
 
 contains
@@ -20,18 +20,18 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
-    call internal_kernel(size(system%corner, 2), system%n, system%corner, system%stiffness, &
+    call internal_kernel(size(system%node, 2), system%n, system%node, system%stiffness, &
         factor, u, f)
   end subroutine subtract_internal_force
 
   !> f = f - factor * C u; u, f (2, n).
-  subroutine subtract_damping_force(system, factor, u, f)
+  subroutine subtract_layer_force(system, factor, u, f)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
-    call subtract_element_forces(system, system%damped, factor, u, f)
-  end subroutine subtract_damping_force
+    call subtract_element_forces(system, system%massless_layer, factor, u, f)
+  end subroutine subtract_layer_force
 
   !> f = f - factor * K u of some elements, in their order; u, f (2, n).
   subroutine subtract_element_forces(system, elements, factor, u, f)
@@ -43,15 +43,15 @@ contains
     integer :: k
     do k = 1, size(elements)
       associate (e => elements(k))
-        call internal_kernel(1, system%n, system%corner(:, e), system%stiffness(:, :, e), &
+        call internal_kernel(1, system%n, system%node(:, e), system%stiffness(:, :, e), &
             factor, u, f)
       end associate
     end do
   end subroutine subtract_element_forces
 
-  pure subroutine internal_kernel(elements, n, corner, k, factor, u, f)
+  pure subroutine internal_kernel(elements, n, node, k, factor, u, f)
     integer, intent(in) :: elements, n
-    integer, intent(in) :: corner(4, elements)
+    integer, intent(in) :: node(4, elements)
     real(wp), intent(in) :: k(6, 6, elements)
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(2, n)
@@ -59,10 +59,10 @@ contains
     real(wp) :: d(6), g(6)
     integer :: e, i, i1, i2, i3, i4
     do e = 1, elements
-      i1 = corner(1, e)
-      i2 = corner(2, e)
-      i3 = corner(3, e)
-      i4 = corner(4, e)
+      i1 = node(1, e)
+      i2 = node(2, e)
+      i3 = node(3, e)
+      i4 = node(4, e)
       d(1) = factor*(u(1, i2) - u(1, i1))
       d(2) = factor*(u(2, i2) - u(2, i1))
       d(3) = factor*(u(1, i3) - u(1, i1))
@@ -92,7 +92,7 @@ contains
     real(wp), intent(out) :: energy(:)
     integer :: e
     energy = zero
-    do e = 1, size(system%corner, 2)
+    do e = 1, size(system%node, 2)
       energy(part(e)) = energy(part(e)) + half*element_product(system, e, u)
     end do
   end subroutine strain_energies
@@ -103,21 +103,21 @@ contains
     real(wp), intent(in) :: u(:, :)
     integer :: e
     strain_product = zero
-    do e = 1, size(system%corner, 2)
+    do e = 1, size(system%node, 2)
       strain_product = strain_product + element_product(system, e, u)
     end do
   end function strain_product
 
   !> u.C u [F L].
-  pure real(wp) function damping_product(system, u)
+  pure real(wp) function layer_product(system, u)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: u(:, :)
     integer :: k
-    damping_product = zero
-    do k = 1, size(system%damped)
-      damping_product = damping_product + element_product(system, system%damped(k), u)
+    layer_product = zero
+    do k = 1, size(system%massless_layer)
+      layer_product = layer_product + element_product(system, system%massless_layer(k), u)
     end do
-  end function damping_product
+  end function layer_product
 
   !> u.K u of element e [F L].
   pure real(wp) function element_product(system, e, u)
@@ -127,7 +127,7 @@ contains
     real(wp) :: d(6)
     integer :: i
     do i = 2, 4
-      d(2*i - 3:2*i - 2) = u(:, system%corner(i, e)) - u(:, system%corner(1, e))
+      d(2*i - 3:2*i - 2) = u(:, system%node(i, e)) - u(:, system%node(1, e))
     end do
     element_product = zero
     do i = 1, 6
@@ -148,9 +148,9 @@ contains
     integer :: k
     angle = zero
     element = 0
-    do k = 1, size(system%corner, 2)
-      d = x(:, system%corner(3, k)) - x(:, system%corner(1, k))
-      e = d + (u(:, system%corner(3, k)) - u(:, system%corner(1, k)))
+    do k = 1, size(system%node, 2)
+      d = x(:, system%node(3, k)) - x(:, system%node(1, k))
+      e = d + (u(:, system%node(3, k)) - u(:, system%node(1, k)))
       ! Unit sizes first: the products of an unbounded motion would overflow.
       size_d = maxval(abs(d))
       size_e = maxval(abs(e))
@@ -171,8 +171,8 @@ contains
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), u(:, :)
     real(wp) :: d(2), e(2)
-    do first_inverted = 1, size(system%corner, 2)
-      associate (c => system%corner(:, first_inverted))
+    do first_inverted = 1, size(system%node, 2)
+      associate (c => system%node(:, first_inverted))
         d = (x(:, c(3)) - x(:, c(1))) + (u(:, c(3)) - u(:, c(1)))
         e = (x(:, c(4)) - x(:, c(2))) + (u(:, c(4)) - u(:, c(2)))
       end associate

@@ -6,7 +6,7 @@ module assembly_mass
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
   use element_base, only: element_t
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   implicit none
   private
   public :: element_mass, redistribution_targets
@@ -33,7 +33,7 @@ contains
       if (controls%mass == 'DISPERSION') then
         nu = controls%courant
         if (controls%courant < zero) nu = controls%dt* &
-            model%material(part%material)%item%wave_speed(part%plane)/element%widths(x)
+            model%material(part%material)%item%wave_speed(part%plane)/element%sizes(x)
         nu = min(one, max(zero, nu))
         a = sqrt(2.0_wp/3.0_wp*(one - nu)*(one + nu))
       end if
@@ -86,7 +86,7 @@ contains
     integer, intent(inout) :: inner(:, :), count(:)
     integer :: e, k, s, i, j, n
     do e = 1, model%elements
-      n = corner_count(model%connectivity(:, e))
+      n = node_count(model%connectivity(:, e))
       do k = 1, n
         i = model%connectivity(k, e)
         if (.not. is_contact(i)) cycle

@@ -12,7 +12,7 @@ module assembly_part
   type, public :: part_t
     integer, allocatable :: row(:)      !< nodes whose rows of M are taken
     integer, allocatable :: element(:)  !< elements that are taken, in increasing order
-    integer, allocatable :: damped(:)   !< those of them that C has
+    integer, allocatable :: massless_layer(:)   !< those of them that C has
   end type part_t
 
   public :: rows_of_nodes, columns_of_nodes, subtract_part
@@ -49,25 +49,25 @@ contains
     type(part_t), intent(inout) :: part
     logical, allocatable :: is_taken(:)
     integer :: e
-    allocate (is_taken(size(system%corner, 2)))
+    allocate (is_taken(size(system%node, 2)))
     do e = 1, size(is_taken)
-      is_taken(e) = any(marked(system%corner(:, e)))
+      is_taken(e) = any(marked(system%node(:, e)))
     end do
     part%element = pack([(e, e=1, size(is_taken))], is_taken)
-    part%damped = pack(system%damped, is_taken(system%damped))
+    part%massless_layer = pack(system%massless_layer, is_taken(system%massless_layer))
   end subroutine find_elements
 
   !> b = b - (cM M + cC C + cK K) x with the part; right at the nodes that it was made for, or
   !> everywhere for its columns. x, b (2, n).
-  subroutine subtract_part(system, part, c_m, c_c, c_k, x, b)
+  subroutine subtract_part(system, part, c_m, c_layer, c_k, x, b)
     type(system_t), intent(in) :: system
     type(part_t), intent(in) :: part
-    real(wp), intent(in) :: c_m, c_c, c_k
+    real(wp), intent(in) :: c_m, c_layer, c_k
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(inout) :: b(:, :)
     call add_mass_rows(system, part%row, -c_m, x, b)
     call subtract_element_forces(system, part%element, c_k, x, b)
-    call subtract_element_forces(system, part%damped, c_c, x, b)
+    call subtract_element_forces(system, part%massless_layer, c_layer, x, b)
   end subroutine subtract_part
 
 end module assembly_part

@@ -9,7 +9,7 @@ module assembly_system
   use element_registry, only: make_element
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
       scalar_rows
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   implicit none
   private
 
@@ -21,11 +21,11 @@ module assembly_system
     !> (n) row sums of the mass [M]: body loads, momentum
     real(wp), allocatable :: lumped(:)
     type(element_slot_t) :: element(3:4)      !< the element types by their number of nodes
-    integer, allocatable :: corner(:, :)      !< (4, ne) rows of nodes
+    integer, allocatable :: node(:, :)      !< (4, ne) rows of nodes
     !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
     !> drops out before anything is multiplied, so a flying body has no internal force at all.
     real(wp), allocatable :: stiffness(:, :, :)
-    integer, allocatable :: damped(:)         !< elements with a massless node: those of C
+    integer, allocatable :: massless_layer(:)  !< elements with a massless node
     !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
     !> node of each: set together, by CONSTRAIN
     logical, allocatable :: fixed(:, :)
@@ -47,7 +47,7 @@ contains
     type(status_t), intent(inout) :: status
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
     system%n = model%nodes
-    system%corner = model%connectivity
+    system%node = model%connectivity
     call make_element(3, system%element(3)%item)
     call make_element(4, system%element(4)%item)
     call redistribution_targets(model, massless, first, target, status)
@@ -69,7 +69,7 @@ contains
     integer :: e
     is_massless = .false.
     is_massless(massless) = .true.
-    system%damped = pack([(e, e=1, model%elements)], &
+    system%massless_layer = pack([(e, e=1, model%elements)], &
         [(any(is_massless(model%connectivity(:, e))), e=1, model%elements)])
   end subroutine find_damped
 
@@ -112,7 +112,7 @@ contains
     system%mass = zero
     do e = 1, model%elements
       call element_mass(model, &
-          system%element(corner_count(model%connectivity(:, e)))%item, e, me)
+          system%element(node_count(model%connectivity(:, e)))%item, e, me)
       do j = 1, 4
         associate (nj => model%connectivity(j, e))
           do i = 1, 4
@@ -154,7 +154,7 @@ contains
     integer :: e, n
     allocate (system%stiffness(6, 6, model%elements))
     do e = 1, model%elements
-      n = corner_count(model%connectivity(:, e))
+      n = node_count(model%connectivity(:, e))
       ke = zero
       associate (part => model%part(model%element_part(e)))
         call system%element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
@@ -167,21 +167,21 @@ contains
 
   !> A = cM M + cC C + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal
   !> only, so that a right-hand side of zero there gives a displacement of zero.
-  subroutine effective_matrix(system, c_m, c_c, c_k, matrix)
+  subroutine effective_matrix(system, c_m, c_layer, c_k, matrix)
     type(system_t), intent(in) :: system
-    real(wp), intent(in) :: c_m, c_c, c_k
+    real(wp), intent(in) :: c_m, c_layer, c_k
     type(block_matrix_t), intent(inout) :: matrix
     integer :: e, i, k
     if (.not. allocated(matrix%value)) allocate (matrix%value(2, 2, size(system%graph%column)))
     matrix%value = zero
     if (abs(c_k) > zero) then
-      do e = 1, size(system%corner, 2)
+      do e = 1, size(system%node, 2)
         call add_stiffness(system, e, c_k, matrix)
       end do
     end if
-    if (abs(c_c) > zero) then
-      do k = 1, size(system%damped)
-        call add_stiffness(system, system%damped(k), c_c, matrix)
+    if (abs(c_layer) > zero) then
+      do k = 1, size(system%massless_layer)
+        call add_stiffness(system, system%massless_layer(k), c_layer, matrix)
       end do
     end if
     do k = 1, size(system%graph%column)
@@ -226,7 +226,7 @@ contains
     end do
     do j = 1, 4
       do i = 1, 4
-        k = system%graph%position(system%corner(i, e), system%corner(j, e))
+        k = system%graph%position(system%node(i, e), system%node(j, e))
         matrix%value(:, :, k) = matrix%value(:, :, k) + ke(2*i - 1:2*i, 2*j - 1:2*j)
       end do
     end do
@@ -238,7 +238,7 @@ contains
     real(wp), intent(in) :: c_m, c_k
     integer :: e, i
     stiffness_ratio = zero
-    do e = 1, size(system%corner, 2)
+    do e = 1, size(system%node, 2)
       do i = 1, 6
         stiffness_ratio = max(stiffness_ratio, system%stiffness(i, i, e))
       end do

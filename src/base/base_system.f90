@@ -8,7 +8,7 @@ module base_system
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: make_folder, is_terminal, leave, become_sibling, peak_memory
+  public :: make_folder, is_terminal, leave, exec_hdf5_program, peak_memory
 
   interface
     integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
@@ -97,7 +97,7 @@ contains
   !> Becomes another program that lies beside this one, with the same command line: its name is
   !> that of this one with `ending` after the first word (bipact-debug: bipact-ending-debug).
   !> Returns only where there is none, with its path.
-  subroutine become_sibling(ending, path)
+  subroutine exec_hdf5_program(ending, path)
     character(*), intent(in) :: ending
     character(:), allocatable, intent(out) :: path
     integer, parameter :: longest = 4096
@@ -133,6 +133,6 @@ contains
     end do
     list(n + 1) = c_null_ptr
     ignored = c_execv(path//c_null_char, list)
-  end subroutine become_sibling
+  end subroutine exec_hdf5_program
 
 end module base_system

@@ -18,7 +18,7 @@ module contact_stage
   use model_data, only: model_t
   implicit none
   private
-  public :: solve_contact, correct_contact, settle_contact
+  public :: solve_contact, correct_contact, evaluate_contact
 
   !> Most rounds of a step: each adds rows that the one before has shown to be missing.
   integer, parameter :: most_rounds = 20
@@ -275,7 +275,7 @@ contains
   !> After the step of motion du to displacement u (2, nodes): u of every row, the certificate
   !> of the reactions for it (to the round-off of gaps and motions, which nearly cancel at a
   !> touch), true overlaps. Fails on what a scene must not do in silence.
-  subroutine settle_contact(model, contact, u, du, cycle, acting, status)
+  subroutine evaluate_contact(model, contact, u, du, cycle, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), du(:, :)
@@ -285,7 +285,7 @@ contains
     type(certificate_t) :: certificate
     real(wp) :: depth
     integer :: a, k
-    if (checks_on) call assert_shape(shape(du), shape(u), 'settle_contact', 'du')
+    if (checks_on) call assert_shape(shape(du), shape(u), 'evaluate_contact', 'du')
     call find_displacements(contact, du)
     associate (rows => contact%rows)
       do a = 1, rows%n
@@ -303,7 +303,7 @@ contains
     call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
     call keep_certificate(certificate, contact%tally)
-  end subroutine settle_contact
+  end subroutine evaluate_contact
 
   subroutine fail_penetration(model, node, depth, is_rigid, status)
     type(model_t), intent(in) :: model

@@ -5,7 +5,7 @@
 module contact_surface
   use base_kinds, only: wp, zero, one, half
   use base_sort, only: sort_order
-  use model_data, only: model_t, corner_count, side_part_set, side_node_set, side_part, &
+  use model_data, only: model_t, node_count, side_part_set, side_node_set, side_part, &
       side_segment_set, side_all_nodes, side_parts
   implicit none
   private
@@ -129,7 +129,7 @@ contains
     allocate (all_edges(2, 4*model%elements), all_parts(4*model%elements))
     n = 0
     do e = 1, model%elements
-      corners = corner_count(model%connectivity(:, e))
+      corners = node_count(model%connectivity(:, e))
       do k = 1, corners
         n = n + 1
         all_edges(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, corners), e)]

@@ -12,8 +12,8 @@ module element_base
   contains
     procedure(stiffness_i), deferred :: stiffness
     procedure(mass_i), deferred :: mass
-    procedure(widths_i), deferred :: widths
-    procedure(area_i), deferred :: smallest_jacobian
+    procedure(sizes_i), deferred :: sizes
+    procedure(jacobian_i), deferred :: smallest_jacobian
     procedure(strain_i), deferred :: mean_strain_matrix
     procedure :: mean_strain => element_mean_strain
   end type element_t
@@ -45,20 +45,20 @@ module element_base
       real(wp), intent(out) :: me(:, :)
     end subroutine mass_i
     !> Width in each parametric direction [L]: the distance of opposite edge midpoints.
-    pure function widths_i(this, x) result(h)
+    pure function sizes_i(this, x) result(h)
       import :: element_t, wp
       class(element_t), intent(in) :: this
       real(wp), intent(in) :: x(:, :)
       real(wp) :: h(2)
-    end function widths_i
+    end function sizes_i
     !> Smallest determinant of the Jacobian at a corner [L2]; not positive: clockwise or
     !> degenerate.
-    pure function area_i(this, x) result(j)
+    pure function jacobian_i(this, x) result(j)
       import :: element_t, wp
       class(element_t), intent(in) :: this
       real(wp), intent(in) :: x(:, :)
       real(wp) :: j
-    end function area_i
+    end function jacobian_i
     !> Mean over the Gauss points of B (3, 2n) [1/L]: strains (exx, eyy, gxy) of unit
     !> displacements, dofs ordered node by node.
     pure subroutine strain_i(this, x, b)

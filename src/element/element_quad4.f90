@@ -10,7 +10,7 @@ module element_quad4
   contains
     procedure :: stiffness => quad4_stiffness
     procedure :: mass => quad4_mass
-    procedure :: widths => quad4_widths
+    procedure :: sizes => quad4_sizes
     procedure :: smallest_jacobian => quad4_smallest_jacobian
     procedure :: mean_strain_matrix => quad4_mean_strain_matrix
   end type quad4_t
@@ -115,7 +115,7 @@ contains
   end subroutine quad4_mass
 
   !> Distance between the midpoints of opposite edges.
-  pure function quad4_widths(this, x) result(h)
+  pure function quad4_sizes(this, x) result(h)
     class(quad4_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp) :: h(2), across(2)
@@ -123,7 +123,7 @@ contains
     h(1) = sqrt(sum(across**2))
     across = half*((x(:, 4) - x(:, 1)) + (x(:, 3) - x(:, 2)))
     h(2) = sqrt(sum(across**2))
-  end function quad4_widths
+  end function quad4_sizes
 
   !> The determinant is bilinear, so its smallest value is at a corner.
   pure function quad4_smallest_jacobian(this, x) result(j)

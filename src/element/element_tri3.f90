@@ -10,7 +10,7 @@ module element_tri3
   contains
     procedure :: stiffness => tri3_stiffness
     procedure :: mass => tri3_mass
-    procedure :: widths => tri3_widths
+    procedure :: sizes => tri3_sizes
     procedure :: smallest_jacobian => tri3_smallest_jacobian
     procedure :: mean_strain_matrix => tri3_mean_strain_matrix
   end type tri3_t
@@ -77,7 +77,7 @@ contains
   end subroutine tri3_mass
 
   !> Height over the longest edge, twice: a triangle has no two directions.
-  pure function tri3_widths(this, x) result(h)
+  pure function tri3_sizes(this, x) result(h)
     class(tri3_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp) :: h(2), longest
@@ -87,7 +87,7 @@ contains
       longest = max(longest, sqrt(sum((x(:, 1 + mod(i, 3)) - x(:, i))**2)))
     end do
     h = double_area(x)/longest
-  end function tri3_widths
+  end function tri3_sizes
 
   !> The determinant is constant.
   pure function tri3_smallest_jacobian(this, x) result(j)

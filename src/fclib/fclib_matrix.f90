@@ -44,7 +44,7 @@ contains
     call read_reals(file, path//'/x', x, status, entries)
     if (failed(status)) return
     if (.not. all(ieee_is_finite(x(:entries)))) call fail(status, status_deck, &
-        file%name//': '//path//'/x holds numbers that are none (NaN or infinite)')
+        file%name//': '//path//'/x is not finite (NaN or Inf)')
     if (nz(1) >= 0) then
       major = p(:entries)
     else

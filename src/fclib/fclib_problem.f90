@@ -127,7 +127,7 @@ contains
     if (d(1) /= 2 .and. d(1) /= 3) call fail(status, status_deck, file%name// &
         ': spacedim is '//to_text(d(1))//'; 2 and 3 are solved here')
     if (.not. all(ieee_is_finite(problem%mu))) then
-      call fail(status, status_deck, file%name//': mu holds numbers that are none')
+      call fail(status, status_deck, file%name//': mu is not finite (NaN or Inf)')
     else if (any(problem%mu < zero)) then
       call fail(status, status_deck, file%name//': mu holds a negative number')
     end if

@@ -43,7 +43,7 @@ contains
     integer :: k
     if (checks_on) call check_graph(graph, last, 'ldlt_analyse')
     this%n = graph%n
-    this%n_last = size(last)
+    this%n_interface = size(last)
     this%leading = graph%n - size(last)
     call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
         this%info%multiplications, status)
@@ -61,7 +61,7 @@ contains
     allocate (this%row(this%first(this%leading + 1) - 1))
     allocate (this%l(2, 2, size(this%row)), this%d_inverse(3, this%leading), &
         this%work(2, graph%n))
-    this%block%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
+    this%schur%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
     this%info%factor_bytes = 36_i8*size(this%row, kind=i8) + 28_i8*this%leading &
         + 32_i8*size(last, kind=i8)**2
   end subroutine ldlt_analyse
@@ -93,7 +93,7 @@ contains
       end if
       if (failed(status)) return
     end do
-    call dense_factor(this%block, status)
+    call dense_factor(this%schur, status)
   end subroutine ldlt_factor
 
   !> Row k of A into y, and the nodes of row k of L, children before parents, in reach(top:n).
@@ -207,25 +207,25 @@ contains
     a = 2*(k - this%leading) - 1
     do i = this%leading + 1, k
       b = 2*(i - this%leading) - 1
-      this%block%l(a:a + 1, b:b + 1) = y(:, :, i)
+      this%schur%l(a:a + 1, b:b + 1) = y(:, :, i)
       y(:, :, i) = zero
     end do
   end subroutine store_block_row
 
   !> y = L^-1 b, then the leading part is divided by the pivots.
-  subroutine ldlt_forward(this, b, b_last)
+  subroutine ldlt_forward(this, b, b_interface)
     class(ldlt_t), intent(inout) :: this
     real(wp), intent(in) :: b(:, :)
-    real(wp), intent(out) :: b_last(:, :)
+    real(wp), intent(out) :: b_interface(:, :)
     integer :: k
-    if (checks_on) call check_vectors(this, b, b_last, 'ldlt_forward')
+    if (checks_on) call check_vectors(this, b, b_interface, 'ldlt_forward')
     do k = 1, this%n
       this%work(1, k) = b(1, this%order(k))
       this%work(2, k) = b(2, this%order(k))
     end do
     call forward_blocks(this%leading, this%n, this%first, this%row, this%l, &
         this%d_inverse, this%work)
-    b_last = this%work(:, this%leading + 1:this%n)
+    b_interface = this%work(:, this%leading + 1:this%n)
   end subroutine ldlt_forward
 
   pure subroutine forward_blocks(leading, n, first, row, l, d, y)
@@ -250,13 +250,13 @@ contains
   end subroutine forward_blocks
 
   !> x = L'^-1 of what forward left, with x of the block given.
-  subroutine ldlt_backward(this, x_last, x)
+  subroutine ldlt_backward(this, x_interface, x)
     class(ldlt_t), intent(inout) :: this
-    real(wp), intent(in) :: x_last(:, :)
+    real(wp), intent(in) :: x_interface(:, :)
     real(wp), intent(out) :: x(:, :)
     integer :: k
-    if (checks_on) call check_vectors(this, x, x_last, 'ldlt_backward')
-    this%work(:, this%leading + 1:this%n) = x_last
+    if (checks_on) call check_vectors(this, x, x_interface, 'ldlt_backward')
+    this%work(:, this%leading + 1:this%n) = x_interface
     call backward_blocks(this%leading, this%n, this%first, this%row, this%l, this%work)
     do k = 1, this%n
       x(1, this%order(k)) = this%work(1, k)

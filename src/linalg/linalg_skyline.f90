@@ -44,7 +44,7 @@ contains
     if (wanted == 'AUTO') wanted = trim(order_names(order_rcm))
     if (checks_on) call check_graph(graph, last, 'skyline_analyse')
     this%n = graph%n
-    this%n_last = size(last)
+    this%n_interface = size(last)
     this%leading = 2*(graph%n - size(last))
     call choose_order(graph, last, wanted, this%order, this%info%order, &
         this%info%multiplications, status)
@@ -65,7 +65,7 @@ contains
       this%start(2*k + 1) = this%start(2*k) + 2*k - (2*low - 1)
     end do
     allocate (this%l(this%start(2*graph%n + 1) - 1))
-    this%block%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
+    this%schur%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
     this%info%factor_bytes = 8_i8*size(this%l, kind=i8)
   end subroutine skyline_analyse
 
@@ -100,7 +100,7 @@ contains
       return
     end do
     call take_block(this)
-    call dense_factor(this%block, status)
+    call dense_factor(this%schur, status)
   end subroutine skyline_factor
 
   !> Reduces one row: first to L D entries by the rows above (columns of the block take only the
@@ -134,22 +134,22 @@ contains
     type(skyline_t), intent(inout) :: this
     integer :: row, column
     do row = this%leading + 1, 2*this%n
-      this%block%l(row - this%leading, row - this%leading) = this%d(row)
+      this%schur%l(row - this%leading, row - this%leading) = this%d(row)
       do column = this%leading + 1, row - 1
         if (column < this%left(row)) cycle
-        this%block%l(row - this%leading, column - this%leading) = &
+        this%schur%l(row - this%leading, column - this%leading) = &
             this%l(this%start(row) + column - this%left(row))
       end do
     end do
   end subroutine take_block
 
   !> Forward pass over the leading rows, then the rows of the block.
-  subroutine skyline_forward(this, b, b_last)
+  subroutine skyline_forward(this, b, b_interface)
     class(skyline_t), intent(inout) :: this
     real(wp), intent(in) :: b(:, :)
-    real(wp), intent(out) :: b_last(:, :)
+    real(wp), intent(out) :: b_interface(:, :)
     integer :: k, row, top
-    if (checks_on) call check_vectors(this, b, b_last, 'skyline_forward')
+    if (checks_on) call check_vectors(this, b, b_interface, 'skyline_forward')
     do k = 1, this%n
       this%work(2*k - 1:2*k) = b(:, this%order(k))
     end do
@@ -158,18 +158,18 @@ contains
       this%work(row) = this%work(row) - dot_product(this%l(this%start(row):this%start(row) &
           + top - this%left(row)), this%work(this%left(row):top))
     end do
-    b_last = reshape(this%work(this%leading + 1:), [2, this%n_last])
+    b_interface = reshape(this%work(this%leading + 1:), [2, this%n_interface])
     this%work(1:this%leading) = this%work(1:this%leading)/this%d(1:this%leading)
   end subroutine skyline_forward
 
   !> Backward pass: each known unknown is taken out of the rows before it.
-  subroutine skyline_backward(this, x_last, x)
+  subroutine skyline_backward(this, x_interface, x)
     class(skyline_t), intent(inout) :: this
-    real(wp), intent(in) :: x_last(:, :)
+    real(wp), intent(in) :: x_interface(:, :)
     real(wp), intent(out) :: x(:, :)
     integer :: k, row, top
-    if (checks_on) call check_vectors(this, x, x_last, 'skyline_backward')
-    this%work(this%leading + 1:) = reshape(x_last, [2*this%n_last])
+    if (checks_on) call check_vectors(this, x, x_interface, 'skyline_backward')
+    this%work(this%leading + 1:) = reshape(x_interface, [2*this%n_interface])
     do row = 2*this%n, 1, -1
       top = min(row - 1, this%leading)
       this%work(this%left(row):top) = this%work(this%left(row):top) &

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What every direct solver of A x = b offers, with the dofs of chosen nodes (the contact block)
 !> last:
-!>   analyse -> factor -> [forward -> solve_last ... -> backward] per step.
-!> forward reduces b to the block: S x_last = b_last with the Schur complement S; all contact
+!>   analyse -> factor -> [forward -> solve_schur ... -> backward] per step.
+!> forward reduces b to the block: S x_interface = b_interface with the Schur complement S; all
+!> contact
 !> iterations happen there; backward gives the rest of x. Vectors are (2, n) in node order,
 !> those of the block (2, m) in the order of `last`.
 module linalg_solver
@@ -35,14 +36,14 @@ module linalg_solver
     type(solver_options_t) :: options
     type(solver_info_t) :: info
     integer :: n = 0
-    integer :: n_last = 0
+    integer :: n_interface = 0
     integer, allocatable :: order(:)  !< (n) new -> old
-    type(dense_spd_t) :: block        !< Schur complement S of the last nodes
+    type(dense_spd_t) :: schur        !< Schur complement S of the last nodes
   contains
     procedure(analyse_i), deferred :: analyse
     procedure(factor_i), deferred :: factor
     procedure(forward_i), deferred :: forward
-    procedure :: solve_last
+    procedure :: solve_schur
     procedure :: flexibility
     procedure(backward_i), deferred :: backward
   end type solver_t
@@ -64,18 +65,18 @@ module linalg_solver
       type(block_matrix_t), intent(in) :: matrix
       type(status_t), intent(inout) :: status
     end subroutine factor_i
-    !> Eliminates the leading unknowns from b; b_last is what remains for the block.
-    subroutine forward_i(this, b, b_last)
+    !> Eliminates the leading unknowns from b; b_interface is what remains for the block.
+    subroutine forward_i(this, b, b_interface)
       import :: solver_t, wp
       class(solver_t), intent(inout) :: this
       real(wp), intent(in) :: b(:, :)
-      real(wp), intent(out) :: b_last(:, :)
+      real(wp), intent(out) :: b_interface(:, :)
     end subroutine forward_i
     !> Whole solution from that of the block, after `forward`.
-    subroutine backward_i(this, x_last, x)
+    subroutine backward_i(this, x_interface, x)
       import :: solver_t, wp
       class(solver_t), intent(inout) :: this
-      real(wp), intent(in) :: x_last(:, :)
+      real(wp), intent(in) :: x_interface(:, :)
       real(wp), intent(out) :: x(:, :)
     end subroutine backward_i
   end interface
@@ -84,20 +85,21 @@ module linalg_solver
 
 contains
 
-  !> x_last = S^-1 x_last, x_last (2, m).
-  subroutine solve_last(this, x_last)
+  !> x_interface = S^-1 x_interface, x_interface (2, m).
+  subroutine solve_schur(this, x_interface)
     class(solver_t), intent(in) :: this
-    real(wp), intent(inout) :: x_last(:, :)
-    if (checks_on) call assert_shape(shape(x_last), [2, this%n_last], 'solve_last', 'x_last')
-    if (this%n_last > 0) call dense_solve(this%block, 2*this%n_last, x_last)
-  end subroutine solve_last
+    real(wp), intent(inout) :: x_interface(:, :)
+    if (checks_on) call assert_shape(shape(x_interface), [2, this%n_interface], &
+        'solve_schur', 'x_interface')
+    if (this%n_interface > 0) call dense_solve(this%schur, 2*this%n_interface, x_interface)
+  end subroutine solve_schur
 
   !> Flexibility of the block, S^-1, as (2m, 2m) [L/F], symmetric to the last bit.
   subroutine flexibility(this, f)
     class(solver_t), intent(in) :: this
     real(wp), intent(out) :: f(:, :)
-    if (checks_on) call assert_shape(shape(f), [2, 2]*this%n_last, 'flexibility', 'f')
-    if (this%n_last > 0) call dense_inverse(this%block, f)
+    if (checks_on) call assert_shape(shape(f), [2, 2]*this%n_interface, 'flexibility', 'f')
+    if (this%n_interface > 0) call dense_inverse(this%schur, f)
   end subroutine flexibility
 
   !> x = A^-1 b in one call, for set-up work outside the step loop.
@@ -105,10 +107,10 @@ contains
     class(solver_t), intent(inout) :: solver
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: x(:, :)
-    real(wp) :: x_last(2, solver%n_last)
-    call solver%forward(b, x_last)
-    call solver%solve_last(x_last)
-    call solver%backward(x_last, x)
+    real(wp) :: x_interface(2, solver%n_interface)
+    call solver%forward(b, x_interface)
+    call solver%solve_schur(x_interface)
+    call solver%backward(x_interface, x)
   end subroutine solve_whole
 
   !> Assertions on what an engine is given to analyse: rows of the graph without gaps, and nodes
@@ -146,7 +148,8 @@ contains
     call assert_shape(shape(matrix%value), [2, 2, size(graph%column)], place, 'matrix%value')
   end subroutine check_matrix
 
-  !> Assertions on the vectors of a forward or backward pass: (2, n) of all nodes, (2, n_last)
+  !> Assertions on the vectors of a forward or backward pass: (2, n) of all nodes,
+  !> (2, n_interface)
   !> of the last.
   subroutine check_vectors(solver, whole, block, place)
     class(solver_t), intent(in) :: solver
@@ -154,7 +157,8 @@ contains
     character(*), intent(in) :: place
     if (.not. checks_on) return
     call assert_shape(shape(whole), [2, solver%n], place, 'the vector of all nodes')
-    call assert_shape(shape(block), [2, solver%n_last], place, 'the vector of the last nodes')
+    call assert_shape(shape(block), [2, solver%n_interface], place, &
+        'the vector of the last nodes')
   end subroutine check_vectors
 
 end module linalg_solver

@@ -13,7 +13,7 @@ module material_base
   contains
     procedure(moduli_i), deferred :: moduli
     procedure(speed_i), deferred :: wave_speed
-    procedure(across_i), deferred :: stress_across
+    procedure(across_i), deferred :: out_of_plane_stress
   end type material_t
 
   !> A material in a list of materials of several kinds.

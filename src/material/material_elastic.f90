@@ -12,7 +12,7 @@ module material_elastic
   contains
     procedure :: moduli => elastic_moduli
     procedure :: wave_speed => elastic_wave_speed
-    procedure :: stress_across => elastic_stress_across
+    procedure :: out_of_plane_stress => elastic_stress_across
   end type elastic_t
 
 contains

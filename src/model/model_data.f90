@@ -193,7 +193,7 @@ module model_data
     type(controls_t) :: controls
   end type model_t
 
-  public :: count_steps, curve_value, curve_slope, corner_count, segment_owner
+  public :: count_steps, curve_value, curve_slope, node_count, segment_owner
 
 contains
 
@@ -248,10 +248,10 @@ contains
   end function curve_slope
 
   !> 3 for a triangle, 4 for a quadrilateral.
-  pure integer function corner_count(corner)
+  pure integer function node_count(corner)
     integer, intent(in) :: corner(4)
-    corner_count = merge(3, 4, corner(3) == corner(4))
-  end function corner_count
+    node_count = merge(3, 4, corner(3) == corner(4))
+  end function node_count
 
   !> For each segment (two nodes) the one element that has it as an edge, and on which side: > 0
   !> when the element runs from the first to the second node, < 0 when the other way; 0 when no
@@ -273,9 +273,9 @@ contains
     owner = 0
     hits = 0
     do e = 1, model%elements
-      do k = 1, corner_count(model%connectivity(:, e))
+      do k = 1, node_count(model%connectivity(:, e))
         a = model%connectivity(k, e)
-        b = model%connectivity(1 + mod(k, corner_count(model%connectivity(:, e))), e)
+        b = model%connectivity(1 + mod(k, node_count(model%connectivity(:, e))), e)
         s = first(min(a, b))
         do while (s > 0)
           if (maxval(segment(:, s)) == max(a, b)) then

@@ -10,7 +10,7 @@ module output_fields
   use element_base, only: element_t
   use element_registry, only: make_element
   use deck_names, only: field_names
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   use model_state, only: state_t
   use output_storage, only: mesh_t, field_t
   use output_table, only: next_due
@@ -21,10 +21,10 @@ module output_fields
   type, public :: fields_t
     integer, allocatable :: node(:), cell(:)   !< rows of the model
     type(field_t), allocatable :: field(:)
-    !> (4, 8, cells): sxx, syy, szz, sxy by the displacements of the corners [F/L3]; only where
+    !> (4, 8, cells): sxx, syy, szz, sxy by the displacements of the nodes [F/L3]; only where
     !> stress is asked for
     real(wp), allocatable :: stress_of(:, :, :)
-    integer, allocatable :: corner(:, :)       !< (4, cells) nodes
+    integer, allocatable :: cell_node(:, :)    !< (4, cells)
     real(wp), allocatable :: stress(:, :)      !< (6, cells), only for PRINCIPAL [F/L2]
     real(wp) :: next = zero                    !< a frame is due from next*interval on
     integer :: segment = 0                     !< number of the file that is open or comes next
@@ -98,30 +98,30 @@ contains
     field%values = zero
   end subroutine shape_field
 
-  !> Stress of each element by unit displacements of its corners.
+  !> Stress of each element by unit displacements of its nodes.
   subroutine make_stress(model, fields)
     type(model_t), intent(in) :: model
     type(fields_t), intent(inout) :: fields
     class(element_t), allocatable :: element
     real(wp) :: b(3, 8), stress(3)
-    integer :: k, c, n, corners
+    integer :: k, c, n, nodes_before
     if (allocated(fields%stress_of)) return
     allocate (fields%stress_of(4, 8, size(fields%cell)))
     fields%stress_of = zero
-    fields%corner = model%connectivity(:, fields%cell)
-    corners = 0
+    fields%cell_node = model%connectivity(:, fields%cell)
+    nodes_before = 0
     do k = 1, size(fields%cell)
-      n = corner_count(fields%corner(:, k))
-      if (n /= corners) call make_element(n, element)
-      corners = n
+      n = node_count(fields%cell_node(:, k))
+      if (n /= nodes_before) call make_element(n, element)
+      nodes_before = n
       associate (part => model%part(model%element_part(fields%cell(k))))
         associate (material => model%material(part%material)%item)
-          call element%mean_strain_matrix(model%x(:, fields%corner(1:n, k)), b(:, 1:2*n))
+          call element%mean_strain_matrix(model%x(:, fields%cell_node(1:n, k)), b(:, 1:2*n))
           b(:, 1:2*n) = matmul(material%moduli(part%plane), b(:, 1:2*n))
           do c = 1, 2*n
             stress = b(:, c)
             fields%stress_of(:, c, k) = [stress(1), stress(2), &
-                material%stress_across(part%plane, stress), stress(3)]
+                material%out_of_plane_stress(part%plane, stress), stress(3)]
           end do
         end associate
       end associate
@@ -144,7 +144,7 @@ contains
     at = 0
     mesh%offsets(1) = 0
     do k = 1, size(fields%cell)
-      n = corner_count(model%connectivity(:, fields%cell(k)))
+      n = node_count(model%connectivity(:, fields%cell(k)))
       mesh%connectivity(at + 1:at + n) = number(model%connectivity(1:n, fields%cell(k)))
       mesh%kind(k) = merge(9, 5, n == 4)
       at = at + n
@@ -202,10 +202,10 @@ contains
         case ('FORCE', 'PRESSURE', 'GAP', 'STATUS')
           call fill_contact(contact, model%nodes, fields%node, fields%field(k))
         case ('STRESS')
-          call find_stress(size(fields%cell), fields%corner, fields%stress_of, model%nodes, &
+          call find_stress(size(fields%cell), fields%cell_node, fields%stress_of, model%nodes, &
               state%u, values)
         case ('PRINCIPAL')
-          call find_stress(size(fields%cell), fields%corner, fields%stress_of, model%nodes, &
+          call find_stress(size(fields%cell), fields%cell_node, fields%stress_of, model%nodes, &
               state%u, fields%stress)
           call fill_principal(fields%stress, values)
         case ('ENERGY')
@@ -217,18 +217,18 @@ contains
     end do
   end subroutine fill_fields
 
-  !> Stress of the cells from the displacements of their corners.
-  pure subroutine find_stress(cells, corner, stress_of, nodes, u, stress)
-    integer, intent(in) :: cells, nodes, corner(4, cells)
+  !> Stress of the cells from the displacements of their nodes.
+  pure subroutine find_stress(cells, node, stress_of, nodes, u, stress)
+    integer, intent(in) :: cells, nodes, node(4, cells)
     real(wp), intent(in) :: stress_of(4, 8, cells), u(2, nodes)
     real(wp), intent(inout) :: stress(6, cells)
     real(wp) :: sum_of(4)
-    integer :: k, c, node
+    integer :: k, c, i
     do k = 1, cells
       sum_of = zero
       do c = 1, 4      ! the fourth of a triangle counts for nothing
-        node = corner(c, k)
-        sum_of = sum_of + stress_of(:, 2*c - 1, k)*u(1, node) + stress_of(:, 2*c, k)*u(2, node)
+        i = node(c, k)
+        sum_of = sum_of + stress_of(:, 2*c - 1, k)*u(1, i) + stress_of(:, 2*c, k)*u(2, i)
       end do
       stress(1:4, k) = sum_of
       stress(5:6, k) = zero

@@ -9,7 +9,7 @@ module output_rows
   use base_timers, only: timers_t, phase_input, phase_assemble, phase_factor, phase_solve, &
       phase_search, phase_contact, phase_output
   use element_base, only: most_nodes
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   use model_state, only: state_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers, add_vector
@@ -100,7 +100,7 @@ contains
     integer :: k, e, n, i
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
-      n = corner_count(model%connectivity(:, e))
+      n = node_count(model%connectivity(:, e))
       do i = 1, n
         x(:, i) = model%x(:, model%connectivity(i, e))
         u(:, i) = state%u(:, model%connectivity(i, e))
@@ -114,7 +114,8 @@ contains
           call add_count(file, model%element_id(e))
           call add_count(file, part%id)
           call add_numbers(file, writer, &
-              [stress(1), stress(2), material%stress_across(part%plane, stress), stress(3), &
+              [stress(1), stress(2), material%out_of_plane_stress(part%plane, stress), &
+              stress(3), &
               zero, zero, half*element_product(system, e, state%u)])
           call end_row(file)
         end associate

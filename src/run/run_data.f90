@@ -67,7 +67,7 @@ module run_data
     type(timers_t) :: timers
     real(wp), allocatable :: b(:, :), x(:, :)              !< (2, n)
     real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (2, n) only with loads [F]
-    real(wp), allocatable :: b_last(:, :), x_last(:, :)    !< (2, m) interface
+    real(wp), allocatable :: b_interface(:, :), x_interface(:, :)    !< (2, m) interface
     real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
     ! (2, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)
@@ -83,7 +83,7 @@ module run_data
     ! Only in statics of bodies that supports do not hold.
     real(wp), allocatable :: shift(:)                      !< (n) eps M [F/L]
     real(wp), allocatable :: x_pass(:, :), move(:, :)      !< (2, n) last pass, its change [L]
-    real(wp), allocatable :: unbalanced(:, :)              !< (2, n) force left of the last step [F]
+    real(wp), allocatable :: unbalanced(:, :)              !< (2, n) of the last step [F]
     integer :: same_moves = 0                              !< passes in a row
     logical :: starts_from_rest = .false.                  !< nothing is loaded before this step
     integer :: static_steps = 0                            !< of the static phase

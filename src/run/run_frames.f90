@@ -34,14 +34,15 @@ contains
 
   !> A frame, if it is due; the last step has one, also where the step has failed, but not where
   !> a file could not be written: frames may have been lost.
-  subroutine keep_frame(run, last, status)
+  subroutine keep_frame(run, is_final, status)
     type(run_t), intent(inout) :: run
-    logical, intent(in) :: last
+    logical, intent(in) :: is_final
     type(status_t), intent(inout) :: status
     type(status_t) :: own
     logical :: first
     if (run%broken .or. status%code == status_file) return
-    if (.not. frame_is_due(run%model, run%fields, run%state%time, run%scheme%h, last)) return
+    if (.not. frame_is_due(run%model, run%fields, run%state%time, run%scheme%h, is_final)) &
+        return
     first = run%fields%frames == 0
     if (.not. first) then
       first = run%fields%segment_of(run%fields%frames) /= run%fields%segment

@@ -12,7 +12,7 @@ module run_loop
   use contact_monitor, only: check_all
   use contact_rows, only: copy_rows
   use contact_search, only: update_lists, relist_outrun
-  use contact_stage, only: settle_contact
+  use contact_stage, only: evaluate_contact
   use contact_work, only: add_contact_step, contact_work_t
   use output_tables, only: any_due, energies_due
   use run_data, only: run_t
@@ -46,7 +46,7 @@ contains
         call load_at_start(run, status)
     if (run%plan%restarts .and. .not. allocated(run%restarted)) &
         call keep_restart(run, .false., status)
-    call tell(run, run%state%cycle == steps .or. failed(status), status)
+    call write_due_output(run, run%state%cycle == steps .or. failed(status), status)
     do while (run%state%cycle < steps .and. .not. failed(status))
       if (run%state%cycle == run%static_steps .and. run%static_steps > 0) &
           call end_static_phase(run, status)
@@ -55,7 +55,7 @@ contains
       stopped = stop_asked()
       stopped = stopped .and. run%state%cycle < steps
       if (run%plan%restarts) call keep_restart(run, stopped, status)
-      call tell(run, run%state%cycle == steps .or. failed(status), status)
+      call write_due_output(run, run%state%cycle == steps .or. failed(status), status)
       call notice_warnings(run, progress)
       if (stopped) call fail(status, status_stopped, 'stopped by a signal', &
           hint=how_to_go_on(run))
@@ -100,7 +100,7 @@ contains
     run%state%cycle = run%state%cycle + 1
     run%state%time = t1
     run%state%h_last = run%scheme%h
-    call account(run, acting, status)
+    call add_step_work(run, acting, status)
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance_to
 
@@ -228,7 +228,7 @@ contains
     if (total <= huge(one)) return
     run%broken = .true.
     call fail(status, status_numerical, &
-        'the displacements are no numbers any more (NaN or infinite)', &
+        'the displacements are not finite (NaN or Inf)', &
         hint='check units, densities and the time step')
   end subroutine check_finite
 
@@ -249,7 +249,7 @@ contains
   end subroutine sum_squares
 
   !> Works of the step into the ledger.
-  subroutine account(run, acting, status)
+  subroutine add_step_work(run, acting, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
@@ -275,7 +275,7 @@ contains
     if (.not. run%plan%contact) return
     if (run%contact%idle_steps == 2) return
     call run%timers%enter(phase_contact)
-    call settle_contact(run%model, run%contact, run%state%u, run%state%du, run%state%cycle, &
+    call evaluate_contact(run%model, run%contact, run%state%u, run%state%du, run%state%cycle, &
         acting, status)
     if (allocated(run%scheme%conjugate)) then
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
@@ -284,7 +284,7 @@ contains
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%state%du, run%ledger%contact)
     end if
-  end subroutine account
+  end subroutine add_step_work
 
   !> Work of the loads on a motion (2, n) [F L].
   pure real(wp) function load_work(run, motion)
@@ -295,38 +295,38 @@ contains
   end function load_work
 
   !> Rows that are due, and what must be watched at such times.
-  subroutine tell(run, last, status)
+  subroutine write_due_output(run, is_final, status)
     type(run_t), intent(inout) :: run
-    logical, intent(in) :: last
+    logical, intent(in) :: is_final
     type(status_t), intent(inout) :: status
     logical :: energies, due
     real(wp) :: h
     h = run%scheme%h
-    energies = energies_due(run%tables, run%state%time, h, last) .or. last
+    energies = energies_due(run%tables, run%state%time, h, is_final) .or. is_final
     if (run%model%controls%ledger_every > 0) &
         energies = energies .or. mod(run%state%cycle, run%model%controls%ledger_every) == 0
-    if (energies .and. .not. run%broken) call watch(run, status)
+    if (energies .and. .not. run%broken) call monitor(run, status)
     if (run%broken) return
-    if (run%plan%fields) call keep_frame(run, last, status)
+    if (run%plan%fields) call keep_frame(run, is_final, status)
     due = any_due(run%tables, run%state%time, h)
-    if (last .or. due) call take_looks(run, last, status)
-    if (.not. (due .or. last .and. run%tables%any_on)) return
+    if (is_final .or. due) call take_looks(run, is_final, status)
+    if (.not. (due .or. is_final .and. run%tables%any_on)) return
     call run%timers%enter(phase_output)
-    call write_rows(run, last, status)
+    call write_rows(run, is_final, status)
     call run%timers%enter(phase_other)
-  end subroutine tell
+  end subroutine write_due_output
 
   !> Looks at all bodies: at output times that are not too close, and at the end.
-  subroutine take_looks(run, last, status)
+  subroutine take_looks(run, is_final, status)
     type(run_t), intent(inout) :: run
-    logical, intent(in) :: last
+    logical, intent(in) :: is_final
     type(status_t), intent(inout) :: status
     !> Steps between two looks: then they cost little beside the steps.
     integer, parameter :: apart = 50
     !> Strain energy beside the largest term below which bodies only fly.
     real(wp), parameter :: least_strain = 1.0e-6_wp
     if (failed(status)) return
-    if (.not. last .and. run%state%cycle < run%looked + apart) return
+    if (.not. is_final .and. run%state%cycle < run%looked + apart) return
     run%looked = run%state%cycle
     if (run%plan%contact) call check_overlap(run, status)
     if (failed(status)) return
@@ -358,7 +358,7 @@ contains
   end subroutine check_overlap
 
   !> Energies, growth of energy, rotation of elements.
-  subroutine watch(run, status)
+  subroutine monitor(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     real(wp) :: angle
@@ -386,9 +386,9 @@ contains
     end if
     run%broken = .not. abs(run%ledger%total) <= huge(one)
     if (run%broken) call fail(status, status_numerical, &
-        'the energy is no number any more (NaN or infinite)', place=moment(run))
+        'the energy is not finite (NaN or Inf)', place=moment(run))
     call run%timers%enter(phase_other)
-  end subroutine watch
+  end subroutine monitor
 
   !> The last step is shorter: another effective matrix.
   subroutine cut_step(run, status)

@@ -130,7 +130,7 @@ contains
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(inout) :: b(:, :)
     associate (s => run%scheme%stage(stage))
-      call subtract_part(run%system, part, s%c_m, s%c_c, s%c_k, x, b)
+      call subtract_part(run%system, part, s%c_m, s%c_layer, s%c_k, x, b)
     end associate
     if (allocated(run%shift)) call add_shift(run%shift, -x, b)
   end subroutine subtract_product

@@ -10,7 +10,7 @@ module run_program
   use base_status, only: status_t, fail, failed, status_text, status_stopped, &
       status_numerical, status_file, status_deck
   use base_strings, only: stem_of, join_path, upper
-  use base_system, only: make_folder, leave, become_sibling
+  use base_system, only: make_folder, leave, exec_hdf5_program
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
   use deck_help, only: write_keywords, write_keyword, write_usage
@@ -98,7 +98,7 @@ contains
     run%quiet = arguments%quiet
     run%folder = stem_of(arguments%deck)//'.out'
     if (allocated(arguments%folder)) run%folder = arguments%folder
-    if (likely_storage(arguments, run)) call become_sibling('hdf5', sibling)
+    if (deck_mentions_storage(arguments, run)) call exec_hdf5_program('hdf5', sibling)
     call read_scene(arguments%deck, arguments%override, run, status)
     if (.not. (failed(status) .or. arguments%plan .or. arguments%check)) &
         call need_storage(arguments, run, status)
@@ -135,14 +135,14 @@ contains
 
   !> A look at the beginning of the deck, which saves reading it twice: does it name fields or
   !> restarts? Where it does not, the scene will tell.
-  logical function likely_storage(arguments, run)
+  logical function deck_mentions_storage(arguments, run)
     type(arguments_t), intent(in) :: arguments
     type(run_t), intent(in) :: run
     integer(i8), parameter :: most = 65536_i8
     character(:), allocatable :: text
     integer(i8) :: size
     integer :: unit, ios
-    likely_storage = .false.
+    deck_mentions_storage = .false.
     if (allocated(run%storage) .or. arguments%plan .or. arguments%check) return
     size = min(most, file_size(arguments%deck))
     if (size < 1_i8) return
@@ -151,9 +151,9 @@ contains
         status='old', action='read', iostat=ios)
     if (ios == 0) read (unit, iostat=ios) text
     close (unit, iostat=ios)
-    likely_storage = index(text, new_line('a')//'*BIPACT_FIELD') > 0 .or. &
+    deck_mentions_storage = index(text, new_line('a')//'*BIPACT_FIELD') > 0 .or. &
         index(text, new_line('a')//'*BIPACT_RESTART') > 0
-  end function likely_storage
+  end function deck_mentions_storage
 
   !> Fields and restarts need the program that is linked with HDF5, which is looked for beside
   !> the file of this one (not beside a link to it): it starts from the beginning.
@@ -164,7 +164,7 @@ contains
     character(:), allocatable :: path
     if (allocated(run%storage)) return
     if (.not. (run%plan%fields .or. run%plan%restarts .or. allocated(arguments%restart))) return
-    call become_sibling('hdf5', path)
+    call exec_hdf5_program('hdf5', path)
     if (file_exists(path)) then
       call fail(status, status_file, 'field files and restarts need the program "'//path// &
           '", which cannot be started', hint='is it executable, and built for this machine?')

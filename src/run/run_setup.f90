@@ -89,7 +89,8 @@ contains
     run%ledger%staggered = run%scheme%staggered
     call make_bending(run%model, run%bending)
     if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
-        'the initial energy is no finite number', hint='check units and initial velocities')
+        'the initial energy is not finite (NaN or Inf)', &
+        hint='check units and initial velocities')
     if (failed(status)) return
     call make_solver(run%solver_options, run%solver, status)
     if (failed(status)) return
@@ -179,7 +180,7 @@ contains
     if (failed(status)) return
     call run%timers%enter(phase_factor)
     associate (stage => run%scheme%stage(1))
-      call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_k, run%matrix)
+      call effective_matrix(run%system, stage%c_m, stage%c_layer, stage%c_k, run%matrix)
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     m = size(run%contact%interface_node)
@@ -187,8 +188,8 @@ contains
       call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
       if (failed(status)) return
       run%analyses = run%analyses + 1
-      if (allocated(run%b_last)) deallocate (run%b_last, run%x_last, run%force)
-      allocate (run%b_last(2, m), run%x_last(2, m), run%force(2, m))
+      if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
+      allocate (run%b_interface(2, m), run%x_interface(2, m), run%force(2, m))
       if (2*m > run%solver_options%block_limit) &
           call add_message(run%notes, '', 'the contact interface has '//to_text(2*m)// &
           ' dofs, more than NLAST; it is kept dense all the same')

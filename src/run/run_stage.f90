@@ -2,7 +2,7 @@
 !> One stage of a step: the right-hand side, the free motion, contact on its interface, the
 !> whole motion, and its correction where the effective matrix is stiff.
 module run_stage
-  use assembly_forces, only: add_loads, subtract_internal_force, subtract_damping_force
+  use assembly_forces, only: add_loads, subtract_internal_force, subtract_layer_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t
@@ -36,13 +36,13 @@ contains
     call run%scheme%right_side(stage, run%system, run%state, run%b)
     call subtract_forces(run, stage)
     if (allocated(run%shift)) call add_shift(run%shift, run%x_pass, run%b)
-    call hold_dofs(run, stage, t1)
+    call constrain_dofs(run, stage, t1)
     call run%timers%enter(phase_solve)
-    call run%solver%forward(run%b, run%b_last)
-    run%x_last = run%b_last
-    call run%solver%solve_last(run%x_last)
+    call run%solver%forward(run%b, run%b_interface)
+    run%x_interface = run%b_interface
+    call run%solver%solve_schur(run%x_interface)
     if (run%plan%contact) call add_contact(run, acting, status)
-    call run%solver%backward(run%x_last, run%x)
+    call run%solver%backward(run%x_interface, run%x)
     run%solves = run%solves + 1
     if (run%state%cycle >= run%plan%refined_from) call refine(run, stage, acting, status)
     if (run%plan%motions) call restore_motions(run)
@@ -77,11 +77,11 @@ contains
     if (.not. run%plan%contact) return
     do pass = 1, most_passes
       call run%timers%enter(phase_contact)
-      call correct_contact(run%model, run%contact, run%x, run%force, run%x_last, done, &
+      call correct_contact(run%model, run%contact, run%x, run%force, run%x_interface, done, &
           acting, status)
       if (done) return
       run%b = zero
-      call add_interface_forces(run, run%x_last)
+      call add_interface_forces(run, run%x_interface)
       call add_correction(run)
       call refine_motion(run, stage)
     end do
@@ -96,7 +96,7 @@ contains
     run%b = run%b_kept
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
-    call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
+    call subtract_layer_force(run%system, run%scheme%stage(stage)%c_layer, run%x, run%b)
     if (allocated(run%shift)) call add_shift(run%shift, -run%x, run%b)
     if (run%plan%contact) call add_interface_forces(run, run%force)
     call add_correction(run)
@@ -125,7 +125,7 @@ contains
   end subroutine add_correction
 
   !> Supports and prescribed motions in the right-hand side.
-  subroutine hold_dofs(run, stage, t1)
+  subroutine constrain_dofs(run, stage, t1)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
@@ -136,9 +136,10 @@ contains
     else if (run%system%any_fixed) then
       call clear_fixed(run%system, run%b)
     end if
-  end subroutine hold_dofs
+  end subroutine constrain_dofs
 
-  !> Contact on the interface: reactions for the free motion x_last, then the motion with them.
+  !> Contact on the interface: reactions for the free motion x_interface, then the motion with
+  !> them.
   subroutine add_contact(run, acting, status)
     type(run_t), intent(inout) :: run
     logical, intent(inout) :: acting
@@ -146,14 +147,14 @@ contains
     run%force = zero
     if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
     call run%timers%enter(phase_contact)
-    call solve_contact(run%model, run%contact, run%state%u, run%x_last, &
+    call solve_contact(run%model, run%contact, run%state%u, run%x_interface, &
         largest_work(run%ledger), run%force, acting, status)
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
     call clear_constrained(run%contact, run%force)
-    run%x_last = run%b_last + run%force
-    call run%solver%solve_last(run%x_last)
+    run%x_interface = run%b_interface + run%force
+    call run%solver%solve_schur(run%x_interface)
   end subroutine add_contact
 
   !> The contact problem of the step as a file, where the deck asks for it.

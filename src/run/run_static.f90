@@ -9,7 +9,7 @@ module run_static
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   use run_data, only: run_t
   implicit none
   private
@@ -18,7 +18,7 @@ module run_static
 contains
 
   !> eps times the lumped mass of each node [F/L]: SHIFT (c/L)^2 m, L the largest size of its
-  !> body, c^2 = E/rho, for bodies whose supports leave a rigid motion; not allocated if none does.
+  !> body, c^2 = E/rho, for bodies whose supports leave a rigid motion; else not allocated.
   subroutine make_shift(model, system, shift, factor)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -55,7 +55,7 @@ contains
     body = [(i, i=1, model%nodes)]
     do e = 1, model%elements
       a = root(body, model%connectivity(1, e))
-      do k = 2, corner_count(model%connectivity(:, e))
+      do k = 2, node_count(model%connectivity(:, e))
         b = root(body, model%connectivity(k, e))
         body(max(a, b)) = min(a, b)
         a = min(a, b)

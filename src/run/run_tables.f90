@@ -17,15 +17,16 @@ module run_tables
 contains
 
   !> Writes the rows that are due; at the last step every table gets one.
-  subroutine write_rows(run, last, status)
+  subroutine write_rows(run, is_final, status)
     type(run_t), intent(inout) :: run
-    logical, intent(in) :: last
+    logical, intent(in) :: is_final
     type(status_t), intent(inout) :: status
     integer :: k
     do k = 1, size(run%tables%file)
       if (.not. run%tables%file(k)%on) cycle
       if (run%tables%file(k)%no_row_at == run%state%cycle) cycle
-      if (.not. (last .or. row_is_due(run%tables%file(k), run%state%time, run%scheme%h))) cycle
+      if (.not. (is_final .or. row_is_due(run%tables%file(k), run%state%time, &
+          run%scheme%h))) cycle
       call write_one(run, k, status)
       call rows_done(run%tables%file(k), run%state%time, run%scheme%h)
     end do

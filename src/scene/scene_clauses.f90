@@ -4,7 +4,7 @@
 module scene_clauses
   use base_kinds, only: wp
   use deck_data, only: deck_t
-  use model_data, only: model_t, corner_count, segment_owner
+  use model_data, only: model_t, node_count, segment_owner
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -262,7 +262,7 @@ contains
     allocate (edge(2, 4*model%elements))
     n = 0
     do e = 1, model%elements
-      c = corner_count(model%connectivity(:, e))
+      c = node_count(model%connectivity(:, e))
       do k = 1, c
         n = n + 1
         edge(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, c), e)]

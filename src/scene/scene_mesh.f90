@@ -7,7 +7,7 @@ module scene_mesh
   use deck_problems, only: add_note, full, add_problem
   use element_base, only: element_t
   use element_registry, only: make_element
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   use scene_ids, only: maps_t, make_id_map, records_of
   implicit none
   private
@@ -144,7 +144,7 @@ contains
     call make_element(4, quadrilateral)
     do e = 1, model%elements
       associate (corner => model%connectivity(:, e))
-        if (corner_count(corner) == 3) then
+        if (node_count(corner) == 3) then
           jacobian = triangle%smallest_jacobian(model%x(:, corner(1:3)))
           if (model%controls%mass == 'DISPERSION') call deck%complain(model%element_record(e), &
               '', 'element '//to_text(model%element_id(e))// &

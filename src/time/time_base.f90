@@ -21,7 +21,7 @@ module time_base
   !>     - force_weight K (U0 + force_lead V0).
   type, public :: stage_t
     real(wp) :: c_m = zero   !< [1/T2]
-    real(wp) :: c_c = zero   !< on the layer of massless nodes
+    real(wp) :: c_layer = zero   !< on the layer of massless nodes
     real(wp) :: c_k = zero
     real(wp) :: contact_factor = one         !< of the contact force in A x = b + factor H' r
     real(wp) :: load_weight(2) = [zero, one]

@@ -7,7 +7,7 @@ module time_ledger
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, half, one
   use contact_work, only: contact_work_t
-  use model_data, only: model_t, corner_count
+  use model_data, only: model_t, node_count
   use model_state, only: state_t
   use time_base, only: staggered_t
   implicit none
@@ -38,10 +38,10 @@ module time_ledger
     real(wp), allocatable :: part_mass(:)
     real(wp), allocatable :: mv(:, :)
     !> Part of each node; 0 where several parts meet: such a node counts in equal shares for
-    !> every element corner there, listed in corner(:, (node, part)) with corner_share.
+    !> every element there, listed in shared(:, (node, part)) with their share.
     integer, allocatable :: owner(:)
-    integer, allocatable :: corner(:, :)
-    real(wp), allocatable :: corner_share(:)
+    integer, allocatable :: shared(:, :)
+    real(wp), allocatable :: share(:)
   end type ledger_t
 
   public :: make_ledger, evaluate_ledger, find_strain_energies, balance, exchange_ledger, &
@@ -66,9 +66,9 @@ contains
       if (ledger%owner(i) == 0) cycle
       ledger%part_mass(ledger%owner(i)) = ledger%part_mass(ledger%owner(i)) + system%lumped(i)
     end do
-    do k = 1, size(ledger%corner_share)
-      associate (m => ledger%part_mass(ledger%corner(2, k)))
-        m = m + ledger%corner_share(k)*system%lumped(ledger%corner(1, k))
+    do k = 1, size(ledger%share)
+      associate (m => ledger%part_mass(ledger%shared(2, k)))
+        m = m + ledger%share(k)*system%lumped(ledger%shared(1, k))
       end associate
     end do
     call evaluate_ledger(model, system, state, ledger)
@@ -84,30 +84,30 @@ contains
   subroutine find_owners(model, ledger)
     type(model_t), intent(in) :: model
     type(ledger_t), intent(inout) :: ledger
-    integer, allocatable :: corners(:)
+    integer, allocatable :: elements_of(:)
     integer :: e, k, n, pass
-    allocate (ledger%owner(model%nodes), corners(model%nodes))
+    allocate (ledger%owner(model%nodes), elements_of(model%nodes))
     ledger%owner = -1
-    corners = 0
+    elements_of = 0
     do e = 1, model%elements
-      do k = 1, corner_count(model%connectivity(:, e))
+      do k = 1, node_count(model%connectivity(:, e))
         associate (i => model%connectivity(k, e), part => model%element_part(e))
-          corners(i) = corners(i) + 1
+          elements_of(i) = elements_of(i) + 1
           if (ledger%owner(i) == -1) ledger%owner(i) = part
           if (ledger%owner(i) /= part) ledger%owner(i) = 0
         end associate
       end do
     end do
     do pass = 1, 2
-      if (pass == 2) allocate (ledger%corner(2, n), ledger%corner_share(n))
+      if (pass == 2) allocate (ledger%shared(2, n), ledger%share(n))
       n = 0
       do e = 1, model%elements
-        do k = 1, corner_count(model%connectivity(:, e))
+        do k = 1, node_count(model%connectivity(:, e))
           if (ledger%owner(model%connectivity(k, e)) /= 0) cycle
           n = n + 1
           if (pass == 1) cycle
-          ledger%corner(:, n) = [model%connectivity(k, e), model%element_part(e)]
-          ledger%corner_share(n) = one/corners(model%connectivity(k, e))
+          ledger%shared(:, n) = [model%connectivity(k, e), model%element_part(e)]
+          ledger%share(n) = one/elements_of(model%connectivity(k, e))
         end do
       end do
     end do
@@ -133,9 +133,9 @@ contains
       moment = moment + (model%x(1, i)*ledger%mv(2, i) - model%x(2, i)*ledger%mv(1, i))
       if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v(:, i), i)
     end do
-    do k = 1, size(ledger%corner_share)
-      i = ledger%corner(1, k)
-      call add_node(ledger, ledger%corner(2, k), ledger%corner_share(k), state%v(:, i), i)
+    do k = 1, size(ledger%share)
+      i = ledger%shared(1, k)
+      call add_node(ledger, ledger%shared(2, k), ledger%share(k), state%v(:, i), i)
     end do
     ledger%angular = moment
     ledger%momentum = sum(ledger%part_momentum, dim=2)

@@ -8,7 +8,7 @@
 !> therefore get xi = 1/2 + layer_damping: the force left dies out within some 25 steps, and the
 !> ledger counts what it took.
 module time_theta
-  use assembly_forces, only: strain_product, damping_product
+  use assembly_forces, only: strain_product, layer_product
   use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
@@ -42,7 +42,7 @@ contains
     real(wp), intent(in) :: h
     this%h = h
     this%stage = [stage_t(c_m=one/(this%theta*h**2), c_k=this%xi)]
-    if (.not. this%xi > half) this%stage(1)%c_c = layer_damping
+    if (.not. this%xi > half) this%stage(1)%c_layer = layer_damping
     this%stage(1)%load_weight = [one - this%xi, this%xi]
     this%load_work_weight = this%stage(1)%load_weight
     this%dissipates = this%dissipates .or. this%theta > half .or. this%xi > half
@@ -57,7 +57,7 @@ contains
     type(status_t), intent(inout) :: status
     if (this%theta > half) allocate (this%dv(2, system%n))
     if (this%theta > half) this%dv = zero
-    this%dissipates = this%dissipates .or. size(system%damped) > 0
+    this%dissipates = this%dissipates .or. size(system%massless_layer) > 0
   end subroutine theta_start
 
   subroutine theta_right_side(this, stage, system, state, b)
@@ -103,8 +103,8 @@ contains
         theta_dissipation = (this%theta - half)*mass_product(system, this%dv, this%dv)
     if (this%xi > half) theta_dissipation = theta_dissipation &
         + (this%xi - half)*strain_product(system, state%du)
-    if (this%stage(1)%c_c > zero) theta_dissipation = theta_dissipation &
-        + this%stage(1)%c_c*damping_product(system, state%du)
+    if (this%stage(1)%c_layer > zero) theta_dissipation = theta_dissipation &
+        + this%stage(1)%c_layer*layer_product(system, state%du)
   end function theta_dissipation
 
   !> x = U1 - U0, or h [(1 - theta) V0 + theta V1].

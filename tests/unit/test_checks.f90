@@ -38,7 +38,7 @@ contains
     type(block_matrix_t) :: matrix
     type(ldlt_t) :: solver
     type(status_t) :: status
-    real(wp) :: b(2, n), b_last(2, 1)
+    real(wp) :: b(2, n), b_interface(2, 1)
     integer :: k, i
     call graph_from_cliques(3, [1, 3, 5], [1, 2, 2, 3], graph)
     allocate (matrix%value(2, 2, size(graph%column)))
@@ -51,7 +51,7 @@ contains
     call solver%analyse(graph, [3], status)
     call solver%factor(graph, matrix, status)
     b = one
-    call solver%forward(b, b_last)
+    call solver%forward(b, b_interface)
     call check_true(.not. failed(status), 'a right call of linalg')
   end subroutine pass_a_vector
 

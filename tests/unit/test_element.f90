@@ -104,7 +104,7 @@ contains
     x(:, 2) = x(:, 1)
     call check_true(.not. element%smallest_jacobian(x) > zero, element%name//' degenerate')
     x = corners()
-    call check_close(maxval(abs(element%widths(2.0_wp*x) - 2.0_wp*element%widths(x))), zero, &
+    call check_close(maxval(abs(element%sizes(2.0_wp*x) - 2.0_wp*element%sizes(x))), zero, &
         1.0e-15_wp, element%name//' widths scale with the element')
   end subroutine test_shape
 
