@@ -47,6 +47,24 @@ def parameter_lines(values):
     return ["*PARAMETER", names(TEN, *labels), pairs]
 
 
+# Fields of the two cards of a time scheme, in their order.
+DYNAMICS = "imass gamma beta tdybir tdydth tdybur irate alpha".split()
+SCHEME = "scheme theta xi rest rhoinf rule pbeta".split()
+
+
+def scheme_cards(scheme, **setting):
+    """*CONTROL_IMPLICIT_DYNAMICS of a motion and *BIPACT_TIME; what is not set stays blank."""
+    given = dict(setting, imass=1, scheme=scheme)
+    unknown = set(given) - set(DYNAMICS) - set(SCHEME)
+    if unknown:
+        raise ValueError("no scheme has a field %s" % sorted(unknown)[0])
+    out = []
+    for keyword, fields in (("*CONTROL_IMPLICIT_DYNAMICS", DYNAMICS), ("*BIPACT_TIME", SCHEME)):
+        values = [given.get(name) for name in fields]
+        out += block(keyword, " ".join(fields), *values)
+    return out
+
+
 def heading(text, columns=70):
     """A title card of at most `columns` bytes: one line, neither a comment nor a keyword."""
     line = " ".join(text.split()) or "-"

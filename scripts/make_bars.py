@@ -28,7 +28,18 @@ from fractions import Fraction
 from types import SimpleNamespace
 
 import startup  # noqa: F401  before what is no part of Python
-from cards import NODE, SHELL, TEN, block, card, listed, names, parameter_lines, text_of
+from cards import (
+    NODE,
+    SHELL,
+    TEN,
+    block,
+    card,
+    listed,
+    names,
+    parameter_lines,
+    scheme_cards,
+    text_of,
+)
 
 DEFAULTS = dict(
     nx=100,
@@ -59,6 +70,7 @@ DEFAULTS = dict(
     xi=None,
     alpha=-0.3,
     rho=0.8,
+    setting={},
     mass="CONSISTENT",
     redist=0,
     angle=0.0,
@@ -381,10 +393,19 @@ def named(o, name, value):
     return ("&" if value == known else "-&") + name
 
 
+def scheme_setting(o):
+    """{field of the scheme's cards: value}; fields that the scheme does not use stay blank."""
+    own = {
+        "THETA": {"theta": float(o.theta), "xi": None if o.xi is None else float(o.xi)},
+        "NEWMARK": {"gamma": 0.5, "beta": 0.25},
+        "HHT": {"alpha": float(o.alpha)},
+        "GENALPHA": {"rhoinf": float(o.rho)},
+    }
+    return dict(own.get(o.scheme, {}), **o.setting)
+
+
 def control_lines(o):
     """Time, scheme and mass; fields that the scheme does not use stay blank."""
-    newmark, theta = o.scheme == "NEWMARK", o.scheme == "THETA"
-    genalpha = o.scheme == "GENALPHA"
     out = block(
         "*CONTROL_TERMINATION",
         "endtim endcyc dtmin endeng endmas",
@@ -396,20 +417,7 @@ def control_lines(o):
         1,
         named(o, "dt", o.dt * o.unit["T"]),
     )
-    out += block(
-        "*CONTROL_IMPLICIT_DYNAMICS",
-        "imass gamma beta tdybir tdydth tdybur irate alpha",
-        1,
-        *((0.5, 0.25) if newmark else ()),
-        *((None,) * 6 + (float(o.alpha),) if o.scheme == "HHT" else ())
-    )
-    out += block(
-        "*BIPACT_TIME",
-        "scheme theta xi rest rhoinf",
-        o.scheme,
-        *((float(o.theta), None if o.xi is None else float(o.xi)) if theta else ()),
-        *((None, None, None, float(o.rho)) if genalpha else ())
-    )
+    out += scheme_cards(o.scheme, **scheme_setting(o))
     out += block("*BIPACT_MASS", "type redist courant", o.mass, o.redist or None)
     if o.ledger_every is not None:
         out += block("*BIPACT_LEDGER", "every growth action", o.ledger_every)
@@ -643,6 +651,22 @@ def point(text):
     return float(x), float(y)
 
 
+def field_value(text):
+    """('pbeta', 0.0) of 'pbeta=0'; a word stays a word."""
+    name, value = text.split("=")
+    try:
+        return name.lower(), float(value)
+    except ValueError:
+        return name.lower(), value
+
+
+class Fields(argparse.Action):
+    """Pairs of the command line as a dictionary."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        setattr(namespace, self.dest, dict(values))
+
+
 def add_scene_options(add):
     """Options of geometry, material and motion."""
     add("--nx", type=int, help="elements along bar 1 (100)")
@@ -680,12 +704,19 @@ def add_time_options(add):
     add(
         "--scheme",
         type=str.upper,
-        choices=("THETA", "NEWMARK", "HHT", "GENALPHA", "PAOLI"),
-        help="(THETA)",
+        help="as in *BIPACT_TIME (THETA)",
     )
     add("--alpha", type=float, help="of HHT (-0.3)")
     add("--rho", type=float, help="of GENALPHA (0.8)")
     add("--theta", type=float, help="(0.5)")
+    add(
+        "--setting",
+        nargs="*",
+        type=field_value,
+        action=Fields,
+        metavar="FIELD=VALUE",
+        help="other fields of the scheme, by their names in *BIPACT_TIME: pbeta=0",
+    )
     add("--xi", type=float, help="(theta)")
     add(
         "--mass",

@@ -9,8 +9,9 @@
     chain          a bar hits a row of equal bars: the last one flies off
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
 
-Every scene takes n (elements along), dt or courant, scheme, theta, mass, redist, output, angle
-(turns it, degrees), mirror=1 (y to -y), triangles=1, and its own names (see the functions).
+Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
+rest, rhoinf, rule, pbeta, gamma, beta, alpha), mass, redist, output, angle (turns it, degrees),
+mirror=1 (y to -y), triangles=1, and its own names (see the functions).
 write(path, scene, ...) returns the data that a comparison needs.
 """
 
@@ -19,6 +20,8 @@ import inspect
 import math
 
 import startup  # noqa: F401  before what is no part of Python
+
+from cards import SCHEME, scheme_cards
 
 
 def turned(o, x, y):
@@ -66,11 +69,8 @@ def deck(o, title, nodes, elements, parts, control, extra):
         "%r," % c["tend"],
         "*CONTROL_IMPLICIT_GENERAL",
         "1,%r" % c["dt"],
-        "*CONTROL_IMPLICIT_DYNAMICS",
-        "1,%r,%r" % (c["gamma"], c["beta"]),
-        "*BIPACT_TIME",
     ]
-    out += ["NEWMARK,"] if c["scheme"] == "NEWMARK" else ["%s,%r" % (c["scheme"], c["theta"])]
+    out += scheme_cards(c["scheme"], **c["setting"])
     out += ["*BIPACT_MASS", "%s,%d" % (c["mass"], c["redist"])]
     out += ["*BIPACT_CONTACT", ",%r" % o["tol"]] if o["tol"] else []
     out += ["*NODE"] + ["%d,%r,%r" % ((i,) + turned(o, x, y)) for i, x, y in nodes]
@@ -100,9 +100,7 @@ def controls(tend, dt, o, tables):
         "tend": tend,
         "dt": dt,
         "scheme": o["scheme"].upper(),
-        "theta": o["theta"],
-        "gamma": o["gamma"],
-        "beta": o["beta"],
+        "setting": {k: o[k] for k in SETTING if o[k] is not None},
         "mass": o["mass"].upper(),
         "redist": o["redist"],
         "thickness": 1.0,
@@ -111,11 +109,10 @@ def controls(tend, dt, o, tables):
     }
 
 
+SETTING = ("gamma", "beta", "alpha") + tuple(SCHEME[1:])
 COMMON = {
+    **dict.fromkeys(SETTING),
     "scheme": "THETA",
-    "theta": 0.5,
-    "gamma": 0.5,
-    "beta": 0.25,
     "mass": "CONSISTENT",
     "redist": 0,
     "output": None,
