@@ -18,6 +18,7 @@ MAX_FILE_LINES = 500
 MAX_PROCEDURE_LINES = 100  # code lines: neither blank nor comment
 MAY_SAVE = "base_signal.f90"  # a signal handler can reach nothing but a saved variable
 MAY_STOP = {"src/run/main.f90", "src/base/base_checks.F90"}  # a failed assertion stops
+NAMELESS_LAYERS = ("linalg", "cone", "contact", "assembly", "run")  # of time schemes
 UNTRACKED = {"build", "bin", ".venv", ".git", "__pycache__"}
 NO_FINAL_NEWLINE_NEEDED = {".k", ".tab"}  # decks may be malformed on purpose
 # Spelled so that this file does not hold what it looks for.
@@ -335,6 +336,27 @@ def check_file(root, path):
         Checker(path, lines).run()
 
 
+def scheme_names(root):
+    """Names of the time schemes, from the one table that has them."""
+    path = root / "src" / "deck" / "deck_schemes.f90"
+    return re.findall(r"scheme_traits_t\('(\w+)'", path.read_text()) if path.exists() else []
+
+
+def check_scheme_names(root):
+    """What serves every scheme knows none by name, not even in a comment or a message."""
+    names = scheme_names(root)
+    if not names:
+        return
+    word = re.compile(r"\b(?:%s)\b" % "|".join(names), re.IGNORECASE)
+    for layer in NAMELESS_LAYERS:
+        for path in sorted((root / "src" / layer).glob("*.?90")):
+            for number, line in enumerate(path.read_text().split("\n"), start=1):
+                found = word.search(line)
+                if found:
+                    name = found.group().upper()
+                    problem(path.relative_to(root), number, f"names the scheme {name}")
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -345,6 +367,7 @@ def main():
     root = parser.parse_args().root.resolve()
     for path in project_files(root):
         check_file(root, path)
+    check_scheme_names(root)
     for path, line, message in sorted(problems):
         print(f"{path}:{line}: {message}")
     if lengths:

@@ -15,8 +15,8 @@ contains
 
   !> Mass (4, 4) [M] of element e by the type asked for; a triangle fills (3, 3). CONSISTENT:
   !> Gauss points. LUMPED: its row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu =
-  !> c dt/h per direction, clipped to [0, 1] (Guddati & Yue 2004, tuned to the theta-method at
-  !> theta = xi = 1/2).
+  !> c dt/h per direction, clipped to [0, 1] (Guddati & Yue 2004, tuned to the mid-point rule
+  !> in time).
   pure subroutine element_mass(model, element, e, me)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element

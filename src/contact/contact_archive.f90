@@ -86,6 +86,7 @@ contains
     call archive%exchange('rows.n', n)
     if (archive%mode == archive_restore) call start_rows(rows, n)
     rows%n = n
+    if (archive%mode == archive_restore) rows%is_active(:n) = .true.
     call archive%exchange('rows.first', rows%first(:n + 1))
     points = rows%first(n + 1) - 1
     call archive%exchange('rows.point', rows%point(:points))

@@ -11,7 +11,7 @@ module contact_assemble
   use model_data, only: model_t
   implicit none
   private
-  public :: find_rows, add_missing_rows, count_rows
+  public :: find_rows, add_missing_rows, take_spare, count_rows
 
   !> Most rounds in which frames are set anew.
   integer, parameter :: most_late_rounds = 3
@@ -80,7 +80,12 @@ contains
     logical :: is_same
     is_same = contact%w_is_current
     if (is_same) is_same = same_geometry(contact%rows, contact%next)
-    if (is_same) contact%next%is_rigid(:contact%next%n) = contact%rows%is_rigid(:contact%rows%n)
+    if (is_same) then
+      associate (n => contact%next%n)
+        contact%next%is_rigid(:n) = contact%rows%is_rigid(:n)
+        contact%next%is_active(:n) = contact%rows%is_active(:n)
+      end associate
+    end if
     call swap_rows(contact%rows, contact%next)
     call use_rows(contact, is_same)
   end subroutine use_next
@@ -139,6 +144,16 @@ contains
     call swap_rows(contact%spare, contact%left)
   end subroutine take_marked
 
+  !> The marked spare rows join the rows.
+  subroutine take_spare(contact)
+    type(contact_t), intent(inout) :: contact
+    if (.not. any(contact%spare%is_marked(:contact%spare%n))) return
+    contact%tally%late_rows = contact%tally%late_rows &
+        + count(contact%spare%is_marked(:contact%spare%n))
+    call take_marked(contact)
+    call use_rows(contact, .false.)
+  end subroutine take_spare
+
   !> After a solve with force (2, m) on the interface: spare rows that are below their
   !> allowance come first; where there is none, nodes that are too deep at the end of the
   !> step, and rows whose frames have turned too much. Bodies that only pass turn too:
@@ -150,23 +165,19 @@ contains
     logical, intent(in) :: acting
     logical, intent(out) :: is_complete
     real(wp) :: d(2)
-    integer :: b, n, below
+    integer :: b, n
     is_complete = .true.
     contact%x_end = x_free
     if (acting) call add_product(size(force), contact%schur_inverse, force, contact%x_end)
-    below = 0
     associate (spare => contact%spare)
       do b = 1, spare%n
         d = relative_displacement(spare, b, spare%slot, contact%x_end)
         spare%is_marked(b) = spare%gap(b) + d(1) < -spare%allowance(b)
-        if (spare%is_marked(b)) below = below + 1
+        is_complete = is_complete .and. .not. spare%is_marked(b)
       end do
     end associate
-    if (below > 0) then
-      is_complete = .false.
-      contact%tally%late_rows = contact%tally%late_rows + below
-      call take_marked(contact)
-      call use_rows(contact, .false.)
+    if (.not. is_complete) then
+      call take_spare(contact)
     else
       call place_end(contact, u, contact%x_end)
       call find_late(model, contact, u, n)

@@ -87,13 +87,14 @@ contains
     contact%w_is_current = .true.
     associate (rows => contact%rows)
       call mark_rigid(contact%schur_inverse, rows)
-      call size_problem(contact, count(.not. rows%is_rigid(:rows%n)))
+      call size_problem(contact, count(rows%is_active(:rows%n) .and. &
+          .not. rows%is_rigid(:rows%n)))
       k = 0
       do a = 1, rows%n
-        if (rows%is_rigid(a)) cycle
+        if (rows%is_rigid(a) .or. .not. rows%is_active(a)) cycle
         k = k + 1
         contact%row_of(k) = a
-        contact%mu(k) = rows%mu(a)
+        contact%mu(k) = merge(zero, rows%mu(a), contact%rule%is_frictionless)
       end do
     end associate
     call fill_w(contact)

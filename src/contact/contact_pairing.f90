@@ -86,6 +86,7 @@ module contact_pairing
     real(wp) :: accepted_overlap = zero    !< found then, taken as a touch [L]
     logical :: is_reference = .false.      !< normals of the reference geometry
     logical :: is_energy_safe = .true.     !< the purse applies
+    real(wp) :: restitution = zero         !< e of its contact nodes
     real(wp) :: penetration_tolerance = 1.0e-9_wp !< / edge length
     type(surface_t) :: side(2)
     !> Search: the displacements when it was last done, and the smallest distance of what is

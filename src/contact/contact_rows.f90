@@ -22,12 +22,14 @@ module contact_rows
     real(wp), allocatable :: normal(:, :)  !< (2, n)
     real(wp), allocatable :: gap(:)        !< at the start of the step [L]
     real(wp), allocatable :: offset(:)     !< c of u_n [L]
+    real(wp), allocatable :: offset_t(:)   !< of u_t [L], zero on positions
     real(wp), allocatable :: allowance(:)  !< the gap may be this far below zero [L]
     real(wp), allocatable :: mu(:)
     real(wp), allocatable :: length(:)     !< of the edge [L]
     logical, allocatable :: is_rigid(:)    !< both sides constrained: W_nn = 0, only watched
     logical, allocatable :: is_twin(:)     !< an exact row of another node says the same
     logical, allocatable :: is_marked(:)   !< to be moved to another list
+    logical, allocatable :: is_active(:)   !< takes part in the solve
     ! Reactions (n, t) of this step and of the two solves before [F], displacement [L],
     ! status.
     real(wp), allocatable :: r(:, :), r_previous(:, :), r_older(:, :), u(:, :)
@@ -70,6 +72,7 @@ contains
     call size_real(rows%weight, 3*n)
     call size_real(rows%gap, n)
     call size_real(rows%offset, n)
+    call size_real(rows%offset_t, n)
     call size_real(rows%allowance, n)
     call size_real(rows%mu, n)
     call size_real(rows%length, n)
@@ -80,6 +83,7 @@ contains
     call size_integer(rows%kind, n)
     call size_logical(rows%is_rigid, n)
     call size_logical(rows%is_marked, n)
+    call size_logical(rows%is_active, n)
     call size_logical(rows%is_twin, n)
   end subroutine size_rows
 
@@ -152,12 +156,14 @@ contains
       rows%normal(:, a) = normal
       rows%gap(a) = gap
       rows%offset(a) = gap + allowance
+      rows%offset_t(a) = zero
       rows%allowance(a) = allowance
       rows%kind(a) = kind
       rows%mu(a) = mu
       rows%length(a) = length
       rows%is_rigid(a) = .false.
       rows%is_marked(a) = .false.
+      rows%is_active(a) = .true.
       rows%is_twin(a) = .false.
       rows%r(:, a) = zero
       rows%r_previous(:, a) = zero
@@ -274,8 +280,10 @@ contains
     end associate
     associate (a => rows%n)
       rows%offset(a) = from%offset(b)
+      rows%offset_t(a) = from%offset_t(b)
       rows%is_rigid(a) = from%is_rigid(b)
       rows%is_twin(a) = from%is_twin(b)
+      rows%is_active(a) = from%is_active(b)
       rows%r(:, a) = from%r(:, b)
       rows%r_previous(:, a) = from%r_previous(:, b)
       rows%r_older(:, a) = from%r_older(:, b)

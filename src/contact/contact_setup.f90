@@ -80,6 +80,8 @@ contains
     pairing%id = card%id
     pairing%record = card%record
     pairing%mu = card%mu
+    pairing%restitution = merge(model%controls%restitution, card%restitution, &
+        card%restitution < zero)
     pairing%birth = card%birth
     pairing%death = card%death
     if (card%is_self) then
@@ -112,6 +114,7 @@ contains
     pairing%id = wall%id
     pairing%record = wall%record
     pairing%mu = wall%mu
+    pairing%restitution = model%controls%restitution
     pairing%birth = wall%birth
     pairing%death = wall%death
     call make_surface(model, merge(side_all_nodes, side_node_set, wall%node_set == 0), &

@@ -14,25 +14,28 @@ module contact_stage
   use contact_monitor, only: check_listed
   use contact_purse, only: start_purses, open_purses, set_offsets, purse_is_short
   use contact_rows, only: rows_t, relative_displacement, add_row_force
+  use contact_rule, only: level_position, level_velocity
   use contact_types, only: contact_t, tally_t
+  use contact_velocity, only: find_velocity_rows, keep_pressed_rows, activate_all, &
+      add_restitution
   use model_data, only: model_t
   implicit none
   private
-  public :: solve_contact, correct_contact, evaluate_contact
+  public :: solve_contact, correct_contact, evaluate_contact, certify_stage
 
   !> Most rounds of a step: each adds rows that the one before has shown to be missing.
   integer, parameter :: most_rounds = 20
 
 contains
 
-  !> Reactions for the free motion x_free (2, m) of the interface from displacement u (2,
-  !> nodes) at the start of the step; force (2, m) = H' r as A x = b + H' r takes it.
-  !> largest [F L]: of the terms of the energy ledger so far. acting is false when nothing
-  !> touches, and then force is zero.
-  subroutine solve_contact(model, contact, u, x_free, largest, force, acting, status)
+  !> Reactions for the free motion x_free (2, m) of the interface from displacement u and
+  !> velocity v (2, nodes) at the start of the step; force (2, m) = H' r as A x = b + H' r
+  !> takes it. largest [F L]: of the terms of the energy ledger so far. acting is false when
+  !> nothing touches, and then force is zero.
+  subroutine solve_contact(model, contact, u, v, x_free, largest, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in), contiguous :: u(:, :), x_free(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), v(:, :), x_free(:, :)
     real(wp), intent(in) :: largest
     real(wp), intent(out), contiguous :: force(:, :)
     logical, intent(out) :: acting
@@ -43,12 +46,17 @@ contains
     force = zero
     acting = .false.
     contact%idle_steps = 0
+    if (contact%rule%level /= level_position) then
+      call solve_velocities(model, contact, u, v, x_free, force, acting, status)
+      return
+    end if
     call find_rows(model, contact, u, x_free)
+    call activate_all(contact)
     call shift_reactions(contact)
     if (contact%rows%n + contact%spare%n == 0) return
     call start_purses(contact)
     do round = 1, most_rounds
-      call solve_rows(model, contact, x_free, largest, round, force, acting, status)
+      call solve_rows(model, contact, v, x_free, largest, round, force, acting, status)
       if (failed(status)) return
       if (round == most_rounds) exit
       call add_missing_rows(model, contact, u, x_free, force, acting, is_complete)
@@ -70,11 +78,40 @@ contains
     call assert(count(contact%slot > 0) == m, place, 'every interface node has a slot')
   end subroutine check_interface
 
-  !> The rows as they are: W, q, reactions; again with smaller offsets where a purse is short.
-  subroutine solve_rows(model, contact, x_free, largest, round, force, acting, status)
+  !> Contact on velocities. Its law says nothing of gaps at the end of the step, so that no row
+  !> can be missing there.
+  subroutine solve_velocities(model, contact, u, v, x_free, force, acting, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
-    real(wp), intent(in), contiguous :: x_free(:, :)
+    real(wp), intent(in), contiguous :: u(:, :), v(:, :), x_free(:, :)
+    real(wp), intent(inout), contiguous :: force(:, :)
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    type(certificate_t) :: certificate
+    if (contact%rule%level == level_velocity) then
+      call find_velocity_rows(model, contact, u, v, x_free)
+    else
+      call keep_pressed_rows(contact, v)
+    end if
+    call shift_reactions(contact)
+    call build_w(contact)
+    if (contact%n == 0) return
+    call find_q(contact, x_free)
+    if (all(contact%q(1, :) >= zero)) return
+    acting = .true.
+    call start_reactions(contact, .true.)
+    call find_reactions(model, contact, force, certificate, status)
+    call watch_alternation(contact)
+    contact%tally%solves = contact%tally%solves + 1
+    contact%tally%solves_since_row = contact%tally%solves_since_row + 1
+    call count_rows(contact)
+  end subroutine solve_velocities
+
+  !> The rows as they are: W, q, reactions; again with smaller offsets where a purse is short.
+  subroutine solve_rows(model, contact, v, x_free, largest, round, force, acting, status)
+    type(model_t), intent(in) :: model
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in), contiguous :: v(:, :), x_free(:, :)
     real(wp), intent(in) :: largest
     integer, intent(in) :: round
     real(wp), intent(inout), contiguous :: force(:, :)
@@ -87,6 +124,7 @@ contains
     call open_purses(contact)
     do attempt = 1, most_attempts
       call set_offsets(contact)
+      if (contact%rule%lead > zero) call add_restitution(contact, v)
       call find_q(contact, x_free)
       force = zero
       if (contact%n == 0) return
@@ -103,7 +141,7 @@ contains
     end do
   end subroutine solve_rows
 
-  !> q = H x_free + (c, 0).
+  !> q = H x_free + offsets.
   pure subroutine find_q(contact, x_free)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: x_free(:, :)
@@ -112,7 +150,7 @@ contains
     do k = 1, contact%n
       u = relative_displacement(contact%rows, contact%row_of(k), contact%rows%slot, x_free)
       contact%q(1, k) = contact%rows%offset(contact%row_of(k)) + u(1)
-      if (contact%d > 1) contact%q(2, k) = u(2)
+      if (contact%d > 1) contact%q(2, k) = contact%rows%offset_t(contact%row_of(k)) + u(2)
     end do
   end subroutine find_q
 
@@ -143,11 +181,11 @@ contains
     integer :: k
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
-        contact%r(:, k) = contact%factor*rows%r(1:contact%d, a)
+        contact%r(:, k) = contact%rule%factor*rows%r(1:contact%d, a)
         if (.not. is_first) cycle
-        contact%r(:, k) = contact%factor*rows%r_previous(1:contact%d, a)
+        contact%r(:, k) = contact%rule%factor*rows%r_previous(1:contact%d, a)
         if (contact%alternates) &
-            contact%r(:, k) = contact%factor*rows%r_older(1:contact%d, a)
+            contact%r(:, k) = contact%rule%factor*rows%r_older(1:contact%d, a)
       end associate
     end do
   end subroutine start_reactions
@@ -187,10 +225,10 @@ contains
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
         rows%r(:, a) = zero    ! a frame that has turned may have left a tangential part
-        rows%r(1:contact%d, a) = contact%r(:, k)/contact%factor
+        rows%r(1:contact%d, a) = contact%r(:, k)/contact%rule%factor
         rows%status(a) = contact%work%status(k)
         if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open
-        call add_row_force(rows, a, contact%factor, rows%slot, force)
+        call add_row_force(rows, a, contact%rule%factor, rows%slot, force)
       end associate
     end do
     associate (tally => contact%tally)
@@ -224,7 +262,7 @@ contains
     do k = 1, contact%n
       associate (rows => contact%rows, a => contact%row_of(k))
         contact%work%u(:, k) = rows%u(1:contact%d, a)
-        contact%r(:, k) = contact%factor*rows%r(1:contact%d, a)
+        contact%r(:, k) = contact%rule%factor*rows%r(1:contact%d, a)
         if (-rows%u(1, a) > half*contact%penetration_tolerance*rows%length(a)) done = .false.
       end associate
     end do
@@ -241,7 +279,7 @@ contains
     acting = acting .or. any(contact%r(1, :) > zero)
   end subroutine correct_contact
 
-  !> u = H dU + (c, 0) of all rows for the motion du (2, nodes).
+  !> u = H dU + offsets of all rows for the motion du (2, nodes).
   pure subroutine find_displacements(contact, du)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: du(:, :)
@@ -250,6 +288,7 @@ contains
       do a = 1, rows%n
         rows%u(:, a) = relative_displacement(rows, a, rows%point, du)
         rows%u(1, a) = rows%offset(a) + rows%u(1, a)
+        rows%u(2, a) = rows%offset_t(a) + rows%u(2, a)
       end do
     end associate
   end subroutine find_displacements
@@ -282,28 +321,61 @@ contains
     integer, intent(in) :: cycle
     logical, intent(in) :: acting
     type(status_t), intent(inout) :: status
-    type(certificate_t) :: certificate
     real(wp) :: depth
-    integer :: a, k
+    integer :: a
     if (checks_on) call assert_shape(shape(du), shape(u), 'evaluate_contact', 'du')
     call find_displacements(contact, du)
     associate (rows => contact%rows)
       do a = 1, rows%n
+        if (contact%rule%level /= level_position .and. .not. rows%is_rigid(a)) cycle
         depth = -rows%u(1, a)
         if (rows%is_rigid(a)) depth = depth + rows%offset(a) - rows%gap(a) - rows%allowance(a)
         if (depth > contact%penetration_tolerance*rows%length(a)) &
             call fail_penetration(model, rows%key(3, a), depth, rows%is_rigid(a), status)
       end do
       if (contact%listed > 0) call check_listed(model, contact, u, du, cycle, status)
-      if (.not. acting) return
-      do k = 1, contact%n
-        contact%work%u(:, k) = rows%u(1:contact%d, contact%row_of(k))
-      end do
     end associate
+    if (acting) call certify_end(contact, du)
+    if (contact%rule%level /= level_position .or. contact%rule%lead > zero) &
+        call find_gaps(contact, du)
+  end subroutine evaluate_contact
+
+  !> The certificate of a stage whose unknown x (2, nodes) is not the motion du of the step.
+  subroutine certify_stage(contact, x, du, acting)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in), contiguous :: x(:, :), du(:, :)
+    logical, intent(in) :: acting
+    call find_displacements(contact, x)
+    if (acting) call certify_end(contact, x)
+    call find_gaps(contact, du)
+  end subroutine certify_stage
+
+  !> The certificate of the reactions for the step as it is.
+  subroutine certify_end(contact, du)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in), contiguous :: du(:, :)
+    type(certificate_t) :: certificate
+    integer :: k
+    do k = 1, contact%n
+      contact%work%u(:, k) = contact%rows%u(1:contact%d, contact%row_of(k))
+    end do
     call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
     call keep_certificate(certificate, contact%tally)
-  end subroutine evaluate_contact
+  end subroutine certify_end
+
+  !> Gaps at the end of the step and slips, where the law is one of something else.
+  pure subroutine find_gaps(contact, du)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in), contiguous :: du(:, :)
+    integer :: a
+    associate (rows => contact%rows)
+      do a = 1, rows%n
+        rows%u(:, a) = relative_displacement(rows, a, rows%point, du)
+        rows%u(1, a) = rows%gap(a) + rows%u(1, a)
+      end do
+    end associate
+  end subroutine find_gaps
 
   subroutine fail_penetration(model, node, depth, is_rigid, status)
     type(model_t), intent(in) :: model

@@ -6,6 +6,7 @@ module contact_types
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use contact_pairing, only: pairing_slot_t, late_t
   use contact_rows, only: rows_t, row_kinds
+  use contact_rule, only: contact_rule_t
   implicit none
   private
 
@@ -39,10 +40,10 @@ module contact_types
     type(late_t), allocatable :: late(:)          !< rows to be added
     integer :: late_rounds = 0                    !< of this step
     logical :: keeps_before = .false.
-    !> Multiplier of H' in A x = b + H' r over the force that tables and works take.
-    real(wp) :: factor = 1.0_wp
+    type(contact_rule_t) :: rule                  !< of the stage
     !> r.dU of the step is friction and normal loss, each by its own formula
     logical :: splits_work = .true.
+    logical :: has_inactive = .false.             !< some row takes no part in the solve
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
@@ -52,6 +53,7 @@ module contact_types
     !> contact, right at interface nodes only [L]
     real(wp), allocatable :: free(:, :), u_end(:, :)
     real(wp), allocatable :: x_end(:, :)          !< (2, m) motion of the interface [L]
+    real(wp), allocatable :: placed(:, :)         !< (2, nodes) on velocities: contact_velocity
     !> (2m, 2m) S^-1 of the interface, constrained dofs cleared [L/F]
     real(wp), allocatable :: schur_inverse(:, :)
     ! The condensed problem: rows that are not rigid.
@@ -69,7 +71,7 @@ module contact_types
     !> rows and spare are those of the places at the start of the last step
     logical :: rows_are_plain = .false.
     !> The last reactions were nearer to those of the solve before the last: forces alternate
-    !> from step to step (theta = 1/2), and so will the next start.
+    !> from step to step (undamped schemes), and so will the next start.
     logical :: alternates = .false.
     integer :: solves_without_contact = 0         !< in a row, counted to 3
     integer :: idle_steps = 2                     !< without rows and lists, counted to 2

@@ -2,7 +2,7 @@
 !> What contact did in a step: forces on the sides, impulses, works.
 module contact_work
   use base_checks, only: checks_on, assert_shape
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use cone_certificate, only: bipotential_residual
   use cone_types, only: certificate_t, contact_open, contact_stick
   use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force
@@ -20,7 +20,8 @@ module contact_work
     real(wp) :: paid_back = zero      !< of the normal work by closing overlaps
   end type contact_work_t
 
-  public :: add_contact_step, find_nodal, subtract_contact_force, start_row
+  public :: add_contact_step, add_stage_work, add_stage_reactions, find_nodal, &
+      subtract_contact_force, start_row
 
 contains
 
@@ -65,6 +66,31 @@ contains
       end associate
     end do
   end subroutine add_contact_step
+
+  !> Work of the forces of an earlier stage of the step, those of the rows `before`, on a
+  !> motion (2, nodes) of their own.
+  subroutine add_stage_work(contact, motion, work)
+    type(contact_t), intent(inout) :: contact
+    real(wp), intent(in), contiguous :: motion(:, :)
+    type(contact_work_t), intent(inout) :: work
+    integer :: a
+    do a = 1, contact%before%n
+      call add_weighted_work(contact, contact%before, a, one, motion, work)
+    end do
+  end subroutine add_stage_work
+
+  !> The reactions of the step are those of both stages, whose rows are the same.
+  pure subroutine add_stage_reactions(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: a
+    associate (rows => contact%rows, before => contact%before)
+      do a = 1, rows%n
+        if (.not. before%r(1, a) > zero) cycle
+        rows%r(:, a) = rows%r(:, a) + before%r(:, a)
+        if (rows%status(a) == contact_open) rows%status(a) = before%status(a)
+      end do
+    end associate
+  end subroutine add_stage_reactions
 
   pure subroutine clear_sums(sums)
     type(pair_sums_t), intent(inout) :: sums

@@ -25,10 +25,11 @@ contains
         'weight of the velocity at the end; blank = 0.5, or no theta at all')
     call add_field(table, 'XI', 'R10 >=0.5 <=1', &
         'weight of the forces at the end; blank = THETA')
-    call add_field(table, 'REST', 'R10 fixed')
+    call add_field(table, 'REST', 'R10 >=0 <=1', 'restitution of contact nodes; blank = 0')
     call add_field(table, 'RHOINF', 'R10 >=0 <=1', &
-        'spectral radius at infinite frequency, of GENALPHA; blank = 0.8')
-    call add_field(table, 'RULE', 'W10 fixed')
+        'spectral radius at infinite frequency; blank = 0.8')
+    call add_field(table, 'RULE', 'W10 |SAFE|PLAIN|', &
+        'of MOREAU; SAFE: normal work is never positive; blank = SAFE')
     call add_field(table, 'PBETA', 'R10 fixed =0.25', 'beta of PAOLI')
     call add_keyword(table, 'BIPACT_STATIC', 'statics of bodies held by contact alone', &
         required=1, once=.true.)
@@ -93,7 +94,8 @@ contains
         'whose nodes are exact: A, B, both, or AUTO: of the locally finer side')
     call add_field(table, 'ATYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFA is')
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
-    call add_field(table, 'REST', 'R10 fixed', 'restitution of velocity-level schemes')
+    call add_field(table, 'REST', 'R10 >=0 <=1', &
+        'restitution of its contact nodes; blank = REST of *BIPACT_TIME')
     call add_keyword(table, 'BIPACT_STEP', '', class=keyword_refused)
     call add_storage_keywords(table)
   end subroutine add_own_keywords

@@ -12,16 +12,29 @@ module deck_schemes
     logical :: takes_gamma = .false.       !< GAMMA and BETA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_alpha = .false.       !< ALPHA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_rho = .false.         !< RHOINF
+    logical :: takes_restitution = .false. !< REST
+    logical :: takes_rule = .false.        !< RULE
+    logical :: takes_pbeta = .false.       !< PBETA
+    logical :: takes_dispersion = .true.   !< the mass DISPERSION, which may be singular
     logical :: takes_redist = .true.       !< massless contact nodes
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
   end type scheme_traits_t
 
-  type(scheme_traits_t), parameter, public :: schemes(5) = [ &
+  type(scheme_traits_t), parameter, public :: schemes(10) = [ &
       scheme_traits_t('THETA', takes_theta=.true.), &
       scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.), &
       scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &
       scheme_traits_t('GENALPHA', takes_rho=.true., has_acceleration=.true.), &
-      scheme_traits_t('PAOLI', takes_redist=.false.)]
+      scheme_traits_t('MOREAU', takes_theta=.true., takes_restitution=.true., &
+      takes_rule=.true., takes_redist=.false.), &
+      scheme_traits_t('PAOLI', takes_restitution=.true., takes_pbeta=.true., &
+      takes_redist=.false.), &
+      scheme_traits_t('CDLAGRANGE', takes_restitution=.true., takes_dispersion=.false., &
+      takes_redist=.false.), &
+      scheme_traits_t('THETAPV', takes_dispersion=.false., takes_redist=.false.), &
+      scheme_traits_t('NSGENALPHA', takes_rho=.true., takes_restitution=.true., &
+      takes_dispersion=.false., takes_redist=.false., has_acceleration=.true.), &
+      scheme_traits_t('CSNEWMARK', takes_dispersion=.false., takes_redist=.false.)]
 
   public :: traits_of
 

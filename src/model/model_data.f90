@@ -89,6 +89,7 @@ module model_data
     integer, allocatable :: parts(:)
     logical, allocatable :: leaves_out(:, :)   !< (parts, parts) pairs that do not touch
     real(wp) :: mu = 0.0_wp
+    real(wp) :: restitution = -1.0_wp   !< < 0: that of the scheme
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)
     integer :: record = 0
@@ -146,7 +147,10 @@ module model_data
     real(wp) :: gamma = 0.5_wp
     real(wp) :: beta = 0.25_wp
     real(wp) :: alpha = 0.0_wp          !< of HHT
-    real(wp) :: rho = 0.8_wp            !< of GENALPHA
+    real(wp) :: rho = 0.8_wp            !< at infinite frequency, of GENALPHA
+    real(wp) :: restitution = 0.0_wp    !< of contact nodes
+    logical :: is_safe = .true.         !< RULE SAFE: normal work is never positive
+    real(wp) :: pbeta = 0.25_wp         !< of PAOLI
     logical :: is_static = .false.
     real(wp) :: static_until = 0.0_wp   !< end of a static phase before dynamics [T]
     real(wp) :: static_shift = 1.0e-3_wp, static_residual = 1.0e-10_wp

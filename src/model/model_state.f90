@@ -15,6 +15,8 @@ module model_state
     real(wp), allocatable :: du(:, :)   !< (2, n) displacement of the step just done [L]
     !> (2, n) acceleration [L/T2], only for schemes that have one
     real(wp), allocatable :: a(:, :)
+    !> (2, n) acceleration of the smooth forces alone, only for schemes that keep it apart
+    real(wp), allocatable :: a_smooth(:, :)
     real(wp) :: h_last = zero           !< length of the step just done [T]
   end type state_t
 
@@ -49,6 +51,7 @@ contains
     call archive%exchange('state.v', state%v)
     call archive%exchange('state.du', state%du)
     if (allocated(state%a)) call archive%exchange('state.a', state%a)
+    if (allocated(state%a_smooth)) call archive%exchange('state.a_smooth', state%a_smooth)
   end subroutine exchange_state
 
 end module model_state

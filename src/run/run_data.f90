@@ -50,6 +50,14 @@ module run_data
     real(wp) :: last_step = zero     !< length of a cut last step; 0 = none [T]
   end type plan_t
 
+  !> An effective matrix that is not the one in use, its factor, and the flexibility of the
+  !> interface.
+  type, public :: operator_t
+    class(solver_t), allocatable :: solver
+    type(block_matrix_t) :: matrix
+    real(wp), allocatable :: schur_inverse(:, :)
+  end type operator_t
+
   type, public :: run_t
     type(deck_t) :: deck
     type(model_t) :: model
@@ -61,6 +69,8 @@ module run_data
     class(scheme_t), allocatable :: scheme
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
+    type(operator_t), allocatable :: other     !< only of schemes of two stages
+    integer :: stage_in_use = 1                !< whose matrix that above is
     type(contact_t) :: contact
     type(ledger_t) :: ledger
     type(tables_t) :: tables
@@ -80,6 +90,8 @@ module run_data
     real(wp), allocatable :: b_held(:, :)                  !< b in those rows, not cleared
     real(wp), allocatable :: reaction(:, :)                !< (2, n) of the step just done [F]
     real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
+    real(wp), allocatable :: first_reaction(:, :)          !< of the first of two stages [F]
+    real(wp), allocatable :: smooth_reaction(:, :)         !< the part that is a load [F]
     ! Only in statics of bodies that supports do not hold.
     real(wp), allocatable :: shift(:)                      !< (n) eps M [F/L]
     real(wp), allocatable :: x_pass(:, :), move(:, :)      !< (2, n) last pass, its change [L]

@@ -17,12 +17,14 @@ module run_loop
   use output_tables, only: any_due, energies_due
   use run_data, only: run_t
   use run_frames, only: keep_frame
-  use run_motion, only: activate_motions, find_reactions
+  use run_motion, only: activate_motions, find_reactions, reaction_work
   use run_progress, only: progress_t, show_progress, clear_progress
   use run_restart, only: keep_restart, how_to_go_on
-  use run_setup, only: factor_matrix, start_dynamics
+  use run_operator, only: factor_matrix, use_operator
+  use run_setup, only: start_dynamics
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
+  use run_two_stages, only: close_stage, add_stage_works, find_stage_reactions
   use time_base, only: mass_product
   use run_tables, only: write_rows
   use run_warnings, only: notice_warnings
@@ -87,15 +89,18 @@ contains
     if (failed(status)) return
     call run%scheme%begin_step(run%state%cycle - run%first_cycle)
     do stage = 1, size(run%scheme%stage)
-      run%contact%factor = run%scheme%stage(stage)%contact_factor
+      if (stage > 1 .and. run%scheme%stage(stage)%only_in_contact .and. .not. acting) exit
+      if (allocated(run%other)) call use_operator(run, stage)
+      run%contact%rule = run%scheme%stage(stage)%rule
       call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, status)
-      if (run%plan%contact) call look_back(run, again, status)
+      call check_finite(run, stage, status)
+      if (run%plan%contact) call look_back(run, stage, again, status)
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       call run%scheme%update(stage, run%x, run%state)
-      call swap(run%state%du, run%x)
+      if (run%scheme%stage(stage)%moves) call swap(run%state%du, run%x)
+      if (allocated(run%other)) call close_stage(run, stage, acting, status)
     end do
     run%state%cycle = run%state%cycle + 1
     run%state%time = t1
@@ -121,8 +126,8 @@ contains
       if (is_done .or. failed(status)) exit
       pass = pass + 1
       call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, status)
-      if (run%plan%contact) call look_back(run, again, status)
+      call check_finite(run, stage, status)
+      if (run%plan%contact) call look_back(run, stage, again, status)
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
     end do
     run%x_pass = zero
@@ -163,7 +168,7 @@ contains
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
     call solve_stage(run, stage, t1, acting, status)
-    call check_finite(run, status)
+    call check_finite(run, stage, status)
   end subroutine solve_again
 
   !> The step and its time, for messages.
@@ -207,11 +212,14 @@ contains
   end subroutine prepare_contact
 
   !> A step that has outrun its lists is solved again with longer ones.
-  subroutine look_back(run, again, status)
+  subroutine look_back(run, stage, again, status)
     type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
     logical, intent(out) :: again
     type(status_t), intent(inout) :: status
     logical :: new_interface
+    again = .false.
+    if (.not. run%scheme%stage(stage)%moves) return
     call run%timers%enter(phase_search)
     call relist_outrun(run%model, run%contact, run%state%u, run%x, run%largest_motion, &
         run%state%v, run%scheme%h, run%state%cycle, again, new_interface, status)
@@ -219,12 +227,13 @@ contains
   end subroutine look_back
 
   !> The largest motion x of a node in the step; NaN or infinity is a failure.
-  subroutine check_finite(run, status)
+  subroutine check_finite(run, stage, status)
     type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
     type(status_t), intent(inout) :: status
     real(wp) :: total, largest
     call sum_squares(size(run%x, 2), run%x, total, largest)
-    run%largest_motion = sqrt(largest)
+    if (run%scheme%stage(stage)%moves) run%largest_motion = sqrt(largest)
     if (total <= huge(one)) return
     run%broken = .true.
     call fail(status, status_numerical, &
@@ -263,7 +272,7 @@ contains
       end if
     end if
     if (run%plan%reactions) then
-      call find_reactions(run, work)
+      call find_motion_work(run, work)
       run%ledger%motion = run%ledger%motion + work
     end if
     if (allocated(run%shift)) then
@@ -275,6 +284,10 @@ contains
     if (.not. run%plan%contact) return
     if (run%contact%idle_steps == 2) return
     call run%timers%enter(phase_contact)
+    if (allocated(run%other)) then
+      call add_stage_works(run)
+      return
+    end if
     call evaluate_contact(run%model, run%contact, run%state%u, run%state%du, run%state%cycle, &
         acting, status)
     if (allocated(run%scheme%conjugate)) then
@@ -285,6 +298,22 @@ contains
           run%scheme%h, run%state%du, run%ledger%contact)
     end if
   end subroutine add_step_work
+
+  !> Reactions of held dofs and their work in the step [F L].
+  subroutine find_motion_work(run, work)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(out) :: work
+    if (allocated(run%other)) then
+      call find_stage_reactions(run, work)
+      return
+    end if
+    call find_reactions(run, 1, run%state%du)
+    if (allocated(run%scheme%conjugate)) then
+      work = reaction_work(run, run%mean_reaction, run%scheme%conjugate)
+    else
+      work = reaction_work(run, run%mean_reaction, run%state%du)
+    end if
+  end subroutine find_motion_work
 
   !> Work of the loads on a motion (2, n) [F L].
   pure real(wp) function load_work(run, motion)
@@ -377,7 +406,7 @@ contains
       if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
       if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
           'energy growth of '//to_text(run%ledger%growth)//' of the largest term', &
-          place=moment(run), hint='choose SCHEME THETA, or ACTION WARN')
+          place=moment(run), hint='choose another scheme (doc/theory.md), or ACTION WARN')
     end if
     if (run%model%controls%end_ratio > zero) then
       if (abs(run%ledger%ratio - one) > run%model%controls%end_ratio) call fail(status, &

@@ -13,7 +13,7 @@ module run_motion
   implicit none
   private
   public :: make_motions, activate_motions, hold_active, impose_motions, restore_motions, &
-      start_reactions, keep_right_side, find_reactions
+      start_reactions, keep_right_side, find_reactions, find_smooth_reactions, reaction_work
 
 contains
 
@@ -97,7 +97,7 @@ contains
         do m = 1, size(motion%node)
           associate (given => run%given(motion%direction, motion%node(m)))
             given = zero
-            if (run%active_motion(k)) given = run%scheme%given_motion(run%state, &
+            if (run%active_motion(k)) given = run%scheme%given_motion(stage, run%state, &
                 motion%direction, motion%node(m), motion%kind, value)
           end associate
         end do
@@ -165,40 +165,62 @@ contains
     end do
   end subroutine keep_right_side
 
-  !> Reactions of the held dofs, A x - b - H' r, for the motion of the step just done, and their
-  !> mean over the step as the scheme weighs contact forces; others are zero. motion_work is
-  !> what they did in the step [F L].
-  subroutine find_reactions(run, motion_work)
+  !> Reactions of the held dofs, A x - b - H' r, for the unknown x (2, n) of a stage just done,
+  !> and their mean over the step as the scheme weighs contact forces; others are zero.
+  subroutine find_reactions(run, stage, x)
     type(run_t), intent(inout) :: run
-    real(wp), intent(out) :: motion_work
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: x(:, :)
     integer :: k
-    do k = 1, size(run%reaction_part%row)
-      run%b(:, run%reaction_part%row(k)) = run%b_held(:, k)
-    end do
-    call subtract_product(run, size(run%scheme%stage), run%reaction_part, run%state%du, run%b)
-    call subtract_contact_force(run%contact, -run%contact%factor, run%b)
-    motion_work = zero
-    do k = 1, size(run%reaction_dof, 2)
-      associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
-        run%mean_reaction(d, i) = run%scheme%weight_before*run%reaction(d, i)
-        run%reaction(d, i) = zero
-        if (run%system%fixed(d, i)) run%reaction(d, i) = -run%b(d, i)/run%contact%factor
-        run%mean_reaction(d, i) = run%mean_reaction(d, i) &
-            + run%scheme%weight_now*run%reaction(d, i)
-        motion_work = motion_work + conjugate_motion(run, d, i)*run%mean_reaction(d, i)
-      end associate
-    end do
+    associate (part => run%reaction_part, factor => run%scheme%stage(stage)%rule%factor)
+      do k = 1, size(part%row)
+        run%b(:, part%row(k)) = run%b_held(:, k)
+      end do
+      call subtract_product(run, stage, part, x, run%b)
+      call subtract_contact_force(run%contact, -factor, run%b)
+      do k = 1, size(run%reaction_dof, 2)
+        associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
+          run%mean_reaction(d, i) = run%scheme%weight_before*run%reaction(d, i)
+          run%reaction(d, i) = zero
+          if (run%system%fixed(d, i)) run%reaction(d, i) = -run%b(d, i)/factor
+          run%mean_reaction(d, i) = run%mean_reaction(d, i) &
+              + run%scheme%weight_now*run%reaction(d, i)
+        end associate
+      end do
+    end associate
   end subroutine find_reactions
 
-  !> The motion of a dof that does work with the mean forces of the step [L].
-  pure real(wp) function conjugate_motion(run, direction, node)
+  !> Reactions that belong to the acceleration of the smooth forces, M s - P + K U of the state:
+  !> they act as loads do.
+  subroutine find_smooth_reactions(run)
+    type(run_t), intent(inout) :: run
+    integer :: k
+    run%b = zero
+    call add_loads(run%model, run%system, run%state%time, one, run%b)
+    associate (part => run%reaction_part)
+      call subtract_part(run%system, part, one, zero, zero, run%state%a_smooth, run%b)
+      call subtract_part(run%system, part, zero, zero, one, run%state%u, run%b)
+    end associate
+    do k = 1, size(run%reaction_dof, 2)
+      associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
+        run%smooth_reaction(d, i) = zero
+        if (run%system%fixed(d, i)) run%smooth_reaction(d, i) = -run%b(d, i)
+      end associate
+    end do
+  end subroutine find_smooth_reactions
+
+  !> Work of forces on held dofs (2, n) in the motion on which the forces of the step do work
+  !> [F L].
+  pure real(wp) function reaction_work(run, force, motion)
     type(run_t), intent(in) :: run
-    integer, intent(in) :: direction, node
-    if (allocated(run%scheme%conjugate)) then
-      conjugate_motion = run%scheme%conjugate(direction, node)
-    else
-      conjugate_motion = run%state%du(direction, node)
-    end if
-  end function conjugate_motion
+    real(wp), intent(in) :: force(:, :), motion(:, :)
+    integer :: k
+    reaction_work = zero
+    do k = 1, size(run%reaction_dof, 2)
+      associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
+        reaction_work = reaction_work + motion(d, i)*force(d, i)
+      end associate
+    end do
+  end function reaction_work
 
 end module run_motion

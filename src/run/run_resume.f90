@@ -21,9 +21,10 @@ module run_resume
   use output_tables, only: check_tables, retime_tables
   use run_data, only: run_t
   use run_frames, only: check_segments
-  use run_motion, only: hold_active, start_reactions
+  use run_motion, only: hold_active, start_reactions, find_smooth_reactions
   use run_restart, only: origin_t, exchange_run, list_restarts, time_told, pairs_left_out
-  use run_setup, only: factor_matrix, start_dynamics
+  use run_operator, only: factor_matrix
+  use run_setup, only: start_dynamics
   implicit none
   private
   public :: resume
@@ -116,6 +117,7 @@ contains
         run%contact, run%state%u, run%state%du, run%state%cycle, status)
     if (run%plan%motions) call hold_active(run)
     if (origin%new_reactions) call start_reactions(run)
+    if (allocated(run%smooth_reaction)) call find_smooth_reactions(run)
   end subroutine restore
 
   !> A good file of this version.

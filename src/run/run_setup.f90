@@ -2,23 +2,22 @@
 !> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
 module run_setup
   use assembly_bending, only: make_bending
-  use assembly_system, only: make_system, effective_matrix, stiffness_ratio
+  use assembly_system, only: make_system, stiffness_ratio
   use base_kinds, only: wp, zero, one
-  use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, add_place, status_numerical
-  use base_timers, only: phase_input, phase_assemble, phase_factor, phase_search, phase_other
-  use contact_condense, only: constrain_interface
+  use base_timers, only: phase_input, phase_assemble, phase_search, phase_other
+  use contact_rule, only: level_position, level_velocity
   use contact_search, only: update_lists
   use contact_setup, only: make_contact, contact_nodes
   use deck_keywords, only: fill_table
   use deck_parameter, only: override_t
   use deck_reader, only: read_deck
   use base_strings, only: to_text
-  use linalg_registry, only: make_solver
   use model_data, only: controls_t
   use model_state, only: make_state
   use run_data, only: run_t
   use run_motion, only: make_motions, start_reactions
+  use run_operator, only: factor_matrix, make_operators, make_other
   use run_plan, only: make_plan, add_feature
   use run_static, only: make_shift
   use scene_model, only: make_scene
@@ -26,7 +25,7 @@ module run_setup
   use time_registry, only: make_scheme
   implicit none
   private
-  public :: read_scene, set_up, factor_matrix, start_dynamics
+  public :: read_scene, set_up, start_dynamics
 
   !> About a Courant number of 10.
   real(wp), parameter :: refinement_ratio = 200.0_wp
@@ -92,10 +91,10 @@ contains
         'the initial energy is not finite (NaN or Inf)', &
         hint='check units and initial velocities')
     if (failed(status)) return
-    call make_solver(run%solver_options, run%solver, status)
-    if (failed(status)) return
     allocate (run%b(2, run%system%n), run%x(2, run%system%n))
     run%x = zero
+    call make_operators(run, status)
+    if (failed(status)) return
     if (run%plan%loads) then
       allocate (run%load_0(2, run%system%n), run%load_1(2, run%system%n))
       run%load_0 = zero
@@ -128,9 +127,17 @@ contains
     !> Of a free body, measured: 1 to 2.4 for the momentum, twice that for the energy.
     real(wp), parameter :: factor = 5.0_wp*epsilon(zero)
     real(wp) :: ratio, steps
-    ratio = huge(zero)
-    if (run%scheme%stage(1)%c_m > zero) ratio = stiffness_ratio(run%system, &
-        run%scheme%stage(1)%c_m, run%scheme%stage(1)%c_k)
+    integer :: k
+    ratio = zero
+    do k = 1, size(run%scheme%stage)
+      associate (stage => run%scheme%stage(k))
+        if (stage%c_m > zero) then
+          ratio = max(ratio, stiffness_ratio(run%system, stage%c_m, stage%c_k))
+        else
+          ratio = huge(zero)
+        end if
+      end associate
+    end do
     steps = zero
     if (ratio <= refinement_ratio) &
         steps = min(real(huge(1), wp), largest_drift/max(factor*ratio, tiny(ratio)))
@@ -147,13 +154,17 @@ contains
   end subroutine plan_refinement
 
   !> What contact must know of the scheme: whether forces of both ends of a step act (then
-  !> rows are kept for a step, and closing overlaps has no bound).
+  !> rows are kept for a step), and whether their work is known from the law of contact on
+  !> positions (if not, closing overlaps has no bound).
   subroutine set_contact_rule(run)
     type(run_t), intent(inout) :: run
     integer :: p
     run%contact%keeps_before = run%scheme%weight_before > zero
     run%contact%splits_work = .not. run%contact%keeps_before &
-        .and. .not. run%scheme%staggered%on
+        .and. .not. run%scheme%staggered%on .and. size(run%scheme%stage) == 1 &
+        .and. run%scheme%stage(1)%rule%level == level_position
+    if (any(run%scheme%stage%rule%level == level_velocity) .and. &
+        .not. allocated(run%contact%placed)) allocate (run%contact%placed, source=run%model%v0)
     do p = 1, size(run%contact%pairing)
       run%contact%pairing(p)%item%is_energy_safe = run%contact%splits_work
     end do
@@ -170,47 +181,6 @@ contains
         run%deck%place(run%contact%pairing(run%contact%searched)%item%record))
   end subroutine first_lists
 
-  !> Factor of the effective matrix, with the interface nodes last and their flexibility;
-  !> again is true when the interface has changed and the order must be found anew.
-  subroutine factor_matrix(run, again, status)
-    type(run_t), intent(inout) :: run
-    logical, intent(in) :: again
-    type(status_t), intent(inout) :: status
-    integer :: m
-    if (failed(status)) return
-    call run%timers%enter(phase_factor)
-    associate (stage => run%scheme%stage(1))
-      call effective_matrix(run%system, stage%c_m, stage%c_layer, stage%c_k, run%matrix)
-    end associate
-    if (allocated(run%shift)) call shift_matrix(run)
-    m = size(run%contact%interface_node)
-    if (again) then
-      call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
-      if (failed(status)) return
-      run%analyses = run%analyses + 1
-      if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
-      allocate (run%b_interface(2, m), run%x_interface(2, m), run%force(2, m))
-      if (2*m > run%solver_options%block_limit) &
-          call add_message(run%notes, '', 'the contact interface has '//to_text(2*m)// &
-          ' dofs, more than NLAST; it is kept dense all the same')
-    end if
-    call run%solver%factor(run%system%graph, run%matrix, status)
-    run%factors = run%factors + 1
-    if (m == 0 .or. failed(status)) return
-    call run%solver%flexibility(run%contact%schur_inverse)
-    call constrain_interface(run%contact, run%system%fixed_list)
-  end subroutine factor_matrix
-
-  subroutine shift_matrix(run)
-    type(run_t), intent(inout) :: run
-    integer :: i, k
-    do i = 1, run%system%n
-      k = run%system%graph%position(i, i)
-      run%matrix%value(1, 1, k) = run%matrix%value(1, 1, k) + run%shift(i)
-      run%matrix%value(2, 2, k) = run%matrix%value(2, 2, k) + run%shift(i)
-    end do
-  end subroutine shift_matrix
-
   !> From the static phase to dynamics: the scheme of the deck begins at the displacements and
   !> reactions as they are, with the initial velocities of the deck.
   subroutine start_dynamics(run, status)
@@ -222,7 +192,8 @@ contains
     run%state%v = run%model%v0
     run%scheme%starts_in_balance = .true.
     call run%scheme%start(run%model, run%system, run%state, status)
-    call factor_matrix(run, .false., status)
+    call make_other(run, status)
+    call factor_matrix(run, allocated(run%other), status)
     call plan_refinement(run)
   end subroutine start_dynamics
 

@@ -46,13 +46,15 @@ contains
     run%solves = run%solves + 1
     if (run%state%cycle >= run%plan%refined_from) call refine(run, stage, acting, status)
     if (run%plan%motions) call restore_motions(run)
+    if (stage > 1 .and. allocated(run%scheme%free)) call find_free(run, acting)
   end subroutine solve_stage
 
-  !> b = b - force_weight K (U0 + force_lead V0).
+  !> b = b - force_weight K (U0 + force_lead V0), U0 and V0 at the start of the stage.
   subroutine subtract_forces(run, stage)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     associate (s => run%scheme%stage(stage))
+      if (.not. s%force_weight > zero) return
       if (abs(s%force_lead) > zero) then
         run%x = run%state%u + s%force_lead*run%state%v
         call subtract_internal_force(run%system, s%force_weight, run%x, run%b)
@@ -138,6 +140,20 @@ contains
     end if
   end subroutine constrain_dofs
 
+  !> The whole unknown of the stage without contact: x - A^-1 H' r.
+  subroutine find_free(run, acting)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: acting
+    run%scheme%free = run%x
+    if (.not. acting) return
+    run%b = zero
+    call add_interface_forces(run, run%force)
+    if (run%system%any_fixed) call clear_fixed(run%system, run%b)
+    call solve_whole(run%solver, run%b, run%scheme%free)
+    run%scheme%free = run%x - run%scheme%free
+    run%solves = run%solves + 1
+  end subroutine find_free
+
   !> Contact on the interface: reactions for the free motion x_interface, then the motion with
   !> them.
   subroutine add_contact(run, acting, status)
@@ -147,7 +163,7 @@ contains
     run%force = zero
     if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
     call run%timers%enter(phase_contact)
-    call solve_contact(run%model, run%contact, run%state%u, run%x_interface, &
+    call solve_contact(run%model, run%contact, run%state%u, run%state%v, run%x_interface, &
         largest_work(run%ledger), run%force, acting, status)
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)

@@ -75,7 +75,7 @@ contains
       case (growth)
         text = 'the energy rose by '//to_text(run%ledger%largest_growth)// &
             ' of the largest term; first seen at '//since//': take a smaller step'
-        if (run%scheme%weight_before > zero) text = text//', or SCHEME THETA'
+        if (run%scheme%weight_before > zero) text = text//', or another scheme'
       case (overlap)
         text = 'bodies overlap by up to '//to_text(tally%overlap_share)// &
             ' of the shorter edge, deepest at node '// &

@@ -118,6 +118,7 @@ contains
             call deck%complain(r, 'CID', 'contact '//to_text(model%contact(row)%id)// &
             ' has a *BIPACT_PAIR already', 'the first is at '//deck%place(pair(row)))
         pair(row) = r
+        if (deck%is_given(r, 'REST')) model%contact(row)%restitution = deck%real(r, 'REST')
         if (deck%word(r, 'SIDE') == 'A') model%contact(row)%contactor = 1
         if (deck%word(r, 'SIDE') == 'B') model%contact(row)%contactor = 2
         if (deck%word(r, 'SIDE') == 'BOTH') then

@@ -149,12 +149,38 @@ contains
     call refuse_field(deck, r, controls%scheme, 'XI', traits%takes_theta)
     call refuse_field(deck, r, controls%scheme, 'RHOINF', traits%takes_rho)
     if (deck%is_given(r, 'RHOINF')) controls%rho = deck%real(r, 'RHOINF')
+    call read_contact_law(deck, controls, traits, r)
     call check_dynamics(deck, controls, traits)
     if (traits%takes_gamma .or. traits%takes_alpha .or. traits%takes_rho) return
     if (abs(controls%gamma - 0.5_wp) > zero .or. abs(controls%beta - 0.25_wp) > zero) &
         call add_note(deck%problems, 'GAMMA and BETA have no effect: they are none of '// &
         'scheme '//trim(controls%scheme))
   end subroutine read_scheme
+
+  !> Restitution and the rule of activation.
+  subroutine read_contact_law(deck, controls, traits, r)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    type(scheme_traits_t), intent(in) :: traits
+    integer, intent(in) :: r
+    integer :: pair
+    call refuse_field(deck, r, controls%scheme, 'REST', traits%takes_restitution)
+    call refuse_field(deck, r, controls%scheme, 'RULE', traits%takes_rule)
+    controls%is_safe = .not. deck%word(r, 'RULE') == 'PLAIN'
+    controls%restitution = deck%real(r, 'REST')
+    pair = deck%next('BIPACT_PAIR', 1, 0)
+    do while (pair > 0)
+      call refuse_field(deck, pair, trim(controls%scheme)//' of *BIPACT_TIME', 'REST', &
+          traits%takes_restitution)
+      if (deck%is_given(pair, 'REST') .and. traits%takes_restitution .and. &
+          abs(deck%real(pair, 'REST') - controls%restitution) > zero) call add_note( &
+          deck%problems, deck%place(pair)//': REST is another than that of *BIPACT_TIME: '// &
+          'where both touch at once with friction, energy may rise')
+      pair = deck%next('BIPACT_PAIR', 1, pair)
+    end do
+    if (controls%restitution > zero) call add_note(deck%problems, deck%place(r)// &
+        ': REST is a number of the contact nodes, not the rebound of a deformable body')
+  end subroutine read_contact_law
 
   !> ALPHA belongs to HHT, which computes gamma and beta of its own.
   subroutine check_dynamics(deck, controls, traits)
@@ -228,6 +254,10 @@ contains
     if (controls%redistribute .and. .not. traits%takes_redist) &
         call deck%complain(r, 'REDIST', 'expected 0: scheme '//trim(controls%scheme)// &
         ' of *BIPACT_TIME does not damp what is left on massless nodes')
+    if (controls%mass == 'DISPERSION' .and. .not. traits%takes_dispersion) &
+        call deck%complain(r, 'TYPE', 'expected CONSISTENT or LUMPED: scheme '// &
+        trim(controls%scheme)//' of *BIPACT_TIME inverts the mass, which may be singular '// &
+        'with DISPERSION')
     if (controls%mass /= 'DISPERSION') then
       if (deck%is_given(r, 'COURANT')) call deck%complain(r, 'COURANT', &
           'only the mass DISPERSION has a Courant number: leave it blank')

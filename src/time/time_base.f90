@@ -1,11 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a time scheme is: a list of stages. A stage gives the effective matrix A = cM M + cC C +
-!> cK K, the right-hand side of the free motion, and the update; contact is posed on the motion
-!> x of the stage by the one contact routine, which is never told which scheme calls it.
+!> cK K, the right-hand side of the free motion, the rule of contact, and the update; contact is
+!> posed on the unknown x of the stage by the one contact routine, which is never told which
+!> scheme calls it.
 module time_base
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t
+  use contact_rule, only: contact_rule_t
   use model_data, only: model_t
   use model_state, only: state_t
   implicit none
@@ -23,11 +25,17 @@ module time_base
     real(wp) :: c_m = zero   !< [1/T2]
     real(wp) :: c_layer = zero   !< on the layer of massless nodes
     real(wp) :: c_k = zero
-    real(wp) :: contact_factor = one         !< of the contact force in A x = b + factor H' r
+    type(contact_rule_t) :: rule             !< what contact means here
     real(wp) :: load_weight(2) = [zero, one]
     real(wp) :: force_weight = one
     real(wp) :: force_lead = zero            !< [T]
+    logical :: moves = .true.                !< x = U1 - U0, else a change of velocity times h
+    logical :: only_in_contact = .false.     !< x is zero where the stage before met no contact
   end type stage_t
+
+  type, public :: motion_t
+    real(wp), allocatable :: x(:, :)         !< (2, n) [L]
+  end type motion_t
 
   type, abstract, public :: scheme_t
     character(10) :: name = ''
@@ -45,6 +53,12 @@ module time_base
     type(staggered_t) :: staggered
     !> (2, n) motion on which forces do work, only where it is not that of the step [L]
     real(wp), allocatable :: conjugate(:, :)
+    ! Only of schemes of two stages, whose matrices differ:
+    !> of each stage, on which its contact forces do work
+    type(motion_t), allocatable :: stage_work(:)
+    logical :: adds_reactions = .false.      !< the force of the step is that of both stages
+    !> (2, n) x of the last stage without contact, only where it is needed [L]
+    real(wp), allocatable :: free(:, :)
   contains
     procedure :: begin_step => nothing_to_begin
     procedure(set_step_i), deferred :: set_step
@@ -81,7 +95,7 @@ module time_base
       real(wp), intent(inout) :: b(:, :)
     end subroutine right_side_i
     !> State at the end of a stage from its unknown x (2, n), which becomes the motion of the
-    !> step, U1 - U0.
+    !> step, U1 - U0, if the stage moves.
     subroutine update_i(this, stage, x, state)
       import :: scheme_t, state_t, wp
       class(scheme_t), intent(inout) :: this
@@ -99,9 +113,10 @@ module time_base
     end function dissipation_i
     !> Unknown x of one dof that ends the step with a given displacement, velocity or
     !> acceleration (kind: motion_... of model_data), by the scheme's own update.
-    pure real(wp) function given_motion_i(this, state, direction, node, kind, value)
+    pure real(wp) function given_motion_i(this, stage, state, direction, node, kind, value)
       import :: scheme_t, state_t, wp
       class(scheme_t), intent(in) :: this
+      integer, intent(in) :: stage
       type(state_t), intent(in) :: state
       integer, intent(in) :: direction, node, kind
       real(wp), intent(in) :: value

@@ -101,8 +101,9 @@ contains
   end function newmark_dissipation
 
   !> x = U1 - U0, or D + beta h^2 A1 with A1 given or from V1.
-  pure real(wp) function newmark_given_motion(this, state, direction, node, kind, value)
+  pure real(wp) function newmark_given_motion(this, stage, state, direction, node, kind, value)
     class(newmark_t), intent(in) :: this
+    integer, intent(in) :: stage
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value

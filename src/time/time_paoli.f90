@@ -1,8 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> PAOLI: the central difference with contact on positions (Paoli & Schatzman 1993), with
-!> beta = 1/4, implicit (our choice). State: U_n and V- = (U_n - U_{n-1})/h.
+!> The central difference with contact on positions (Paoli & Schatzman 1993), beta = 1/4,
+!> implicit (our choice), or beta = 0, explicit; or with contact on velocities (CD-Lagrange,
+!> Fekak, Brun, Gravouil & Depale 2017), beta = 0. State: U_n and V- = (U_n - U_{n-1})/h.
 !>   [M/h^2 + beta K] x = M V-/h + P_n - K (U_n - beta h V-) + r,  U_{n+1} = U_n + x,  V+ = x/h,
-!> the gap at U_{n+1} is not negative. Two steps of the theta-method at theta = xi = 1/2 with
+!> the gap at U_{n+1} + e times that at U_{n-1} is not negative, or v+ + e v- where the gap at
+!> U_n is not positive. At beta = 1/4 two steps of the theta-method at theta = xi = 1/2 with
 !> their mean contact force are one of this: that mean obeys the law of contact, and does not
 !> alternate. In the first step V- is V0 and half the forces act. Forces do work on
 !> w = h (V- + V+)/2; the energy V+.M V+/2 + Um.K Um/2 + (beta - 1/4) x.K x/2, Um = U_n + x/2,
@@ -12,6 +14,7 @@ module time_paoli
   use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
+  use contact_rule, only: contact_rule_t, level_position, level_velocity
   use model_data, only: model_t, motion_displacement
   use model_state, only: state_t
   use time_base, only: scheme_t, stage_t
@@ -20,6 +23,7 @@ module time_paoli
 
   type, extends(scheme_t), public :: paoli_t
     real(wp) :: beta = 0.25_wp
+    logical :: on_velocities = .false.
     logical :: is_first = .true.
     real(wp), allocatable :: ku(:, :), kv(:, :), v_start(:, :)   !< K U0, K V0, V0: first step
   contains
@@ -50,8 +54,11 @@ contains
     real(wp) :: share
     this%h = h
     share = merge(half, one, this%is_first)
-    this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, contact_factor=share, &
+    this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, &
         load_weight=[share, zero], force_weight=share, force_lead=-this%beta*h/share)]
+    this%stage(1)%rule = contact_rule_t(level=level_position, factor=share, lead=h)
+    if (this%on_velocities) this%stage(1)%rule = contact_rule_t(level=level_velocity, &
+        factor=share, now=h, safe_share=one)
     this%weight_now = share
     this%load_work_weight = [share, zero]
     this%staggered%on = .true.
@@ -114,8 +121,9 @@ contains
   end function paoli_dissipation
 
   !> x = h V+, V+ given or from U_{n+1}.
-  pure real(wp) function paoli_given_motion(this, state, direction, node, kind, value)
+  pure real(wp) function paoli_given_motion(this, stage, state, direction, node, kind, value)
     class(paoli_t), intent(in) :: this
+    integer, intent(in) :: stage
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value

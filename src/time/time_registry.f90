@@ -2,15 +2,19 @@
 !> Time schemes by name. To add one: its file, its `use`, its case; its traits are a row of
 !> deck_schemes.
 module time_registry
+  use base_kinds, only: zero
   use base_status, only: status_t, fail, status_deck
   use deck_schemes, only: scheme_traits_t, traits_of
   use model_data, only: controls_t
   use time_alpha, only: hht, generalised_alpha
   use time_base, only: scheme_t
+  use time_csnewmark, only: csnewmark_t
+  use time_nsgenalpha, only: nonsmooth_alpha
   use time_paoli, only: paoli_t
   use time_static, only: static_t
   use time_newmark, only: newmark_t
   use time_theta, only: theta_t
+  use time_thetapv, only: thetapv_t
   implicit none
   private
   public :: make_scheme
@@ -40,8 +44,19 @@ contains
       allocate (scheme, source=hht(controls%alpha))
     case ('GENALPHA')
       allocate (scheme, source=generalised_alpha(controls%rho))
+    case ('MOREAU')
+      allocate (scheme, source=theta_t(theta=controls%theta, xi=controls%xi, &
+          on_velocities=.true., is_safe=controls%is_safe))
     case ('PAOLI')
-      allocate (paoli_t :: scheme)
+      allocate (scheme, source=paoli_t(beta=controls%pbeta))
+    case ('CDLAGRANGE')
+      allocate (scheme, source=paoli_t(beta=zero, on_velocities=.true.))
+    case ('THETAPV')
+      allocate (thetapv_t :: scheme)
+    case ('NSGENALPHA')
+      allocate (scheme, source=nonsmooth_alpha(controls%rho))
+    case ('CSNEWMARK')
+      allocate (csnewmark_t :: scheme)
     case default
       call fail(status, status_deck, 'time scheme "'//trim(controls%scheme)// &
           '" is not available')

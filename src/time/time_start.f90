@@ -20,7 +20,7 @@ module time_start
 
 contains
 
-  !> A0 [L/T2] into state%a from M A0 = P0 - K U0. Where the mass is singular the acceleration
+  !> A0 [L/T2] into state%a from M A0 = P0 - K U0 at the time of the state. Where the mass is singular the acceleration
   !> is zero, if the right side allows it; else it fails, naming the scheme.
   subroutine start_acceleration(name, model, system, state, status)
     character(*), intent(in) :: name
@@ -34,9 +34,9 @@ contains
     real(wp) :: size_f
     allocate (f(2, system%n))
     f = zero
-    call give_accelerations(model, state%a)
+    call give_accelerations(model, state%time, state%a)
     call multiply_mass(system, -one, state%a, f)
-    call add_loads(model, system, zero, one, f)
+    call add_loads(model, system, state%time, one, f)
     call subtract_internal_force(system, one, state%u, f)
     call clear_fixed(system, f)
     size_f = maxval(abs(f))
@@ -57,17 +57,18 @@ contains
     state%a = state%a + a
   end subroutine start_acceleration
 
-  !> Accelerations at t = 0 of dofs whose motion is prescribed from the start.
-  subroutine give_accelerations(model, a)
+  !> Accelerations at `time` of dofs whose motion is prescribed then.
+  subroutine give_accelerations(model, time, a)
     type(model_t), intent(in) :: model
+    real(wp), intent(in) :: time
     real(wp), intent(inout) :: a(:, :)
     real(wp) :: value
     integer :: k
     do k = 1, size(model%motion)
       associate (m => model%motion(k))
-        if (m%birth > zero .or. m%kind == motion_displacement) cycle
-        value = m%factor*curve_value(model%curve(m%curve), zero)
-        if (m%kind == motion_velocity) value = m%factor*curve_slope(model%curve(m%curve), zero)
+        if (m%birth > time .or. m%kind == motion_displacement) cycle
+        value = m%factor*curve_value(model%curve(m%curve), time)
+        if (m%kind == motion_velocity) value = m%factor*curve_slope(model%curve(m%curve), time)
         a(m%direction, m%node) = value
       end associate
     end do

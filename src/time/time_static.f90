@@ -69,8 +69,9 @@ contains
   end function static_dissipation
 
   !> x = U1 - U0, or h V1 where a motion gives a velocity.
-  pure real(wp) function static_given_motion(this, state, direction, node, kind, value)
+  pure real(wp) function static_given_motion(this, stage, state, direction, node, kind, value)
     class(static_t), intent(in) :: this
+    integer, intent(in) :: stage
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value

@@ -7,11 +7,14 @@
 !> would change sign at every step for ever (F1 = -F0). The elements that hold such nodes
 !> therefore get xi = 1/2 + layer_damping: the force left dies out within some 25 steps, and the
 !> ledger counts what it took.
+!> On velocities (Moreau 1988) the same step has the law of contact v1n + e v0n >= 0 on what
+!> touches at the middle of the free step; its impulse over h is the force r.
 module time_theta
   use assembly_forces, only: strain_product, layer_product
   use assembly_system, only: system_t, multiply_mass
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
+  use contact_rule, only: contact_rule_t, level_velocity
   use model_data, only: model_t, motion_displacement
   use model_state, only: state_t
   use time_base, only: scheme_t, stage_t, mass_product
@@ -21,6 +24,8 @@ module time_theta
   type, extends(scheme_t), public :: theta_t
     real(wp) :: theta = half
     real(wp) :: xi = half
+    logical :: on_velocities = .false.
+    logical :: is_safe = .false.        !< the normal work of contact is never positive
     real(wp), allocatable :: dv(:, :)   !< velocity change of the step, only where it is needed
   contains
     procedure :: set_step => theta_set_step
@@ -42,6 +47,9 @@ contains
     real(wp), intent(in) :: h
     this%h = h
     this%stage = [stage_t(c_m=one/(this%theta*h**2), c_k=this%xi)]
+    if (this%on_velocities) this%stage(1)%rule = contact_rule_t(level=level_velocity, &
+        lead=half*h, before=(one - this%theta)*h, now=this%theta*h, &
+        safe_share=merge((one - this%theta)/this%theta, zero, this%is_safe))
     if (.not. this%xi > half) this%stage(1)%c_layer = layer_damping
     this%stage(1)%load_weight = [one - this%xi, this%xi]
     this%load_work_weight = this%stage(1)%load_weight
@@ -108,8 +116,9 @@ contains
   end function theta_dissipation
 
   !> x = U1 - U0, or h [(1 - theta) V0 + theta V1].
-  pure real(wp) function theta_given_motion(this, state, direction, node, kind, value)
+  pure real(wp) function theta_given_motion(this, stage, state, direction, node, kind, value)
     class(theta_t), intent(in) :: this
+    integer, intent(in) :: stage
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value

@@ -375,9 +375,9 @@ BEYOND = [
         "field ZERO_V",
     ),
     (
-        "birth of dynamics",
+        "birth of dynamics within a step",
         "dynamics",
-        cards("CONTROL_IMPLICIT_DYNAMICS", fixed(1, 0.5, 0.25, 0.005)),
+        cards("CONTROL_IMPLICIT_DYNAMICS", fixed(1, 0.5, 0.25, 0.00123456)),
         "field TDYBIR",
     ),
     (

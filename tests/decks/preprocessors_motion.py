@@ -423,14 +423,14 @@ def no_time_card():
         problems=1,
     )
     refused(
-        "no time card: static",
-        deck(time="", dynamics=cards("CONTROL_IMPLICIT_DYNAMICS", fixed(0))),
-        "field IMASS: expected 1",
+        "time card: static",
+        deck(dynamics=cards("CONTROL_IMPLICIT_DYNAMICS", fixed(0))),
+        "has no place in a static analysis",
         problems=1,
     )
     refused(
         "no time card: alpha",
-        deck(time="", dynamics=dynamics(0.5, 0.25, 0, 0, 0, 0, -0.1)),
+        deck(time="", dynamics=dynamics(0.5, 0.25, 0, 0, 0, 0, -0.5)),
         "field ALPHA",
         problems=1,
     )

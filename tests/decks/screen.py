@@ -61,7 +61,7 @@ def wedge():
 SPIN = "*INITIAL_VELOCITY_GENERATION", "2,2,2.0,0.0,0.0", "0.5,5.5,0.0,0.0,0.0,1.0"
 # kind: deck, what its line says of place, step and remedy
 KINDS = {
-    "energy-growth": (lesson, r"step \d+, time \S+: take a smaller step, or SCHEME THETA"),
+    "energy-growth": (lesson, r"step \d+, time \S+: take a smaller step, or another scheme"),
     "scheme": (
         lambda: GAMMA_CARD.sub(r"\g<1>1,0.5\n", TIME_CARD.sub("", lesson())),
         r"choose SCHEME THETA",

@@ -132,7 +132,10 @@ def bitwise():
     text, two = re.subn(r"(\*BIPACT_FIELD\n%s).*" % comments, r"\g<1>    0.0007", text)
     check(one == 1 and two == 1, "the cards of restarts and fields are there")
     deck, folder = write_deck("every", text), os.path.join(TMP, "every")
-    for options in ([], ["-D", "scheme=NEWMARK"], ["-D", "tend=0.01985"], ["-D", "mu=0.0"]):
+    # HHT, which needs ALPHA on another card, is the method of GENALPHA.
+    names = [name for name in scenes.words_of("SCHEME") if name not in ("THETA", "HHT")]
+    schemes = [["-D", "scheme=" + name] for name in names]
+    for options in [[], ["-D", "tend=0.01985"], ["-D", "mu=0.0"]] + schemes:
         code, errors, _ = bipact(deck, folder, "--quiet", *options)
         check(code == 0, "every keyword: " + errors)
         go_on_from_each("every keyword", deck, folder, contents(folder), *options)

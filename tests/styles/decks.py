@@ -277,7 +277,6 @@ add(
 add(
     "filled: automatic steps", "refused", filled, more=("CONTROL_IMPLICIT_AUTO", [{"iauto": 1}])
 )
-add("filled: static", "refused", filled, dynamics=("CONTROL_IMPLICIT_DYNAMICS", [{"imass": 0}]))
 add(
     "filled: damping",
     "refused",

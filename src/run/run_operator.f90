@@ -1,0 +1,142 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The effective matrices of a scheme with their factors. One is in use; a scheme of two stages
+!> has another beside it, and they change places by their addresses.
+module run_operator
+  use assembly_system, only: effective_matrix
+  use base_kinds, only: wp, zero
+  use base_messages, only: add_message
+  use base_status, only: status_t, failed
+  use base_strings, only: to_text
+  use base_timers, only: phase_factor
+  use contact_condense, only: constrain_interface
+  use linalg_registry, only: make_solver
+  use linalg_solver, only: solver_t
+  use run_data, only: run_t, operator_t
+  use run_motion, only: find_smooth_reactions
+  implicit none
+  private
+  public :: make_operators, make_other, factor_matrix, use_operator
+
+contains
+
+  !> A solver for every stage of the scheme.
+  subroutine make_operators(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    run%stage_in_use = 1
+    call make_solver(run%solver_options, run%solver, status)
+    if (failed(status)) return
+    call make_other(run, status)
+  end subroutine make_operators
+
+  !> The solver of a second stage, if there is one, and what its reactions need.
+  subroutine make_other(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    if (size(run%scheme%stage) == 1) return
+    allocate (run%other)
+    call make_solver(run%solver_options, run%other%solver, status)
+    if (.not. run%plan%reactions) return
+    allocate (run%first_reaction(2, run%system%n), source=zero)
+    if (.not. allocated(run%state%a_smooth)) return
+    allocate (run%smooth_reaction(2, run%system%n), source=zero)
+    call find_smooth_reactions(run)
+  end subroutine make_other
+
+  !> Puts the matrix of a stage into its place, with its factor and the flexibility of the
+  !> interface.
+  subroutine use_operator(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    type(operator_t) :: kept
+    if (stage == run%stage_in_use) return
+    run%stage_in_use = stage
+    call move_alloc(run%solver, kept%solver)
+    call move_alloc(run%matrix%value, kept%matrix%value)
+    if (allocated(run%contact%schur_inverse)) &
+        call move_alloc(run%contact%schur_inverse, kept%schur_inverse)
+    call move_alloc(run%other%solver, run%solver)
+    if (allocated(run%other%matrix%value)) &
+        call move_alloc(run%other%matrix%value, run%matrix%value)
+    if (allocated(run%other%schur_inverse)) &
+        call move_alloc(run%other%schur_inverse, run%contact%schur_inverse)
+    call move_alloc(kept%solver, run%other%solver)
+    if (allocated(kept%matrix%value)) call move_alloc(kept%matrix%value, run%other%matrix%value)
+    if (allocated(kept%schur_inverse)) &
+        call move_alloc(kept%schur_inverse, run%other%schur_inverse)
+    run%contact%w_is_current = .false.
+  end subroutine use_operator
+
+  !> Factors of the effective matrices of all stages, with the interface nodes last and their
+  !> flexibility; again is true when the interface has changed and the order must be found
+  !> anew.
+  subroutine factor_matrix(run, again, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    integer :: m, stage, in_use
+    if (failed(status)) return
+    call run%timers%enter(phase_factor)
+    m = size(run%contact%interface_node)
+    if (again) then
+      if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
+      allocate (run%b_interface(2, m), run%x_interface(2, m), run%force(2, m))
+      if (2*m > run%solver_options%block_limit) &
+          call add_message(run%notes, '', 'the contact interface has '//to_text(2*m)// &
+          ' dofs, more than NLAST; it is kept dense all the same')
+    end if
+    in_use = run%stage_in_use
+    do stage = 1, size(run%scheme%stage)
+      if (allocated(run%other)) call use_operator(run, stage)
+      call factor_stage(run, stage, again, status)
+      if (failed(status)) return
+    end do
+    if (allocated(run%other)) call use_operator(run, in_use)
+  end subroutine factor_matrix
+
+  subroutine factor_stage(run, number, again, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: number
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    integer :: m
+    associate (stage => run%scheme%stage(number))
+      call effective_matrix(run%system, stage%c_m, stage%c_layer, stage%c_k, run%matrix)
+    end associate
+    if (allocated(run%shift)) call shift_matrix(run)
+    if (again) then
+      call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
+      if (failed(status)) return
+      run%analyses = run%analyses + 1
+    end if
+    call run%solver%factor(run%system%graph, run%matrix, status)
+    run%factors = run%factors + 1
+    m = size(run%contact%interface_node)
+    if (m == 0 .or. failed(status)) return
+    call size_flexibility(m, run%contact%schur_inverse)
+    call run%solver%flexibility(run%contact%schur_inverse)
+    call constrain_interface(run%contact, run%system%fixed_list)
+  end subroutine factor_stage
+
+  !> That of the matrix beside the one in use is not sized with the interface.
+  subroutine size_flexibility(m, schur_inverse)
+    integer, intent(in) :: m
+    real(wp), allocatable, intent(inout) :: schur_inverse(:, :)
+    if (allocated(schur_inverse)) then
+      if (size(schur_inverse, 1) == 2*m) return
+      deallocate (schur_inverse)
+    end if
+    allocate (schur_inverse(2*m, 2*m))
+  end subroutine size_flexibility
+
+  subroutine shift_matrix(run)
+    type(run_t), intent(inout) :: run
+    integer :: i, k
+    do i = 1, run%system%n
+      k = run%system%graph%position(i, i)
+      run%matrix%value(1, 1, k) = run%matrix%value(1, 1, k) + run%shift(i)
+      run%matrix%value(2, 2, k) = run%matrix%value(2, 2, k) + run%shift(i)
+    end do
+  end subroutine shift_matrix
+
+end module run_operator
