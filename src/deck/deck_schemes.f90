@@ -20,7 +20,7 @@ module deck_schemes
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
   end type scheme_traits_t
 
-  type(scheme_traits_t), parameter, public :: schemes(10) = [ &
+  type(scheme_traits_t), parameter, public :: schemes(*) = [ &
       scheme_traits_t('THETA', takes_theta=.true.), &
       scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.), &
       scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &

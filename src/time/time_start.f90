@@ -20,8 +20,9 @@ module time_start
 
 contains
 
-  !> A0 [L/T2] into state%a from M A0 = P0 - K U0 at the time of the state. Where the mass is singular the acceleration
-  !> is zero, if the right side allows it; else it fails, naming the scheme.
+  !> A0 [L/T2] into state%a from M A0 = P0 - K U0 at the time of the state. Where the mass is
+  !> singular the acceleration is zero, if the right side allows it; else it fails, naming the
+  !> scheme.
   subroutine start_acceleration(name, model, system, state, status)
     character(*), intent(in) :: name
     type(model_t), intent(in) :: model

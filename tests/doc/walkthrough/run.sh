@@ -1,4 +1,4 @@
 #!/usr/bin/env bash
-# The walk-through of doc/developer.md, done with its own text: the new linear solver is built, passes
-# the unit test and the style check, and solves a deck as LDLT does.
+# The walk-throughs of doc/developer.md, done with their own text: the new linear solver and the new
+# time scheme are built, pass the tests that the page names, and give the tables of LDLT and of THETA at 1.
 "$PYTHON" "$ROOT/tests/doc/walkthrough/walkthrough.py"

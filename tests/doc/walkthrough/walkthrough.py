@@ -1,4 +1,4 @@
-"""Does what the walk-through of doc/developer.md says, in a copy of the sources.
+"""Does what the walk-throughs of doc/developer.md say, in a copy of the sources.
 
 Its blocks are marked by the line before them: "New file `PATH`:", or "In `PATH`, before `LINE`:"
 (or after); a block of sh is run, the block of a deck is given to a scene."""
@@ -94,33 +94,57 @@ def run(command, **options):
     return done.stdout
 
 
-def columns(engine, card):
-    """{(table, column): values} of the scene with an engine, which the log must name."""
-    deck, folder = os.path.join(TMP, engine + ".k"), os.path.join(TMP, engine)
-    with open(os.path.join(ROOT, SCENE)) as file:
-        text = file.read()
+def columns(name, text):
+    """{(table, column): values} of a deck, given as text."""
+    deck, folder = os.path.join(TMP, name + ".k"), os.path.join(TMP, name)
     with open(deck, "w") as out:
-        out.write(text.replace("*END", card + "*END"))
+        out.write(text)
     run(["bin/bipact", deck, "-o", folder, "--quiet"])
     with open(os.path.join(folder, "bipact.log")) as file:
-        if "solver %s," % engine not in file.read():
-            sys.exit("the log does not name " + engine)
+        if name not in file.read():
+            sys.exit("the log does not name " + name)
     found = {}
-    for name, wanted in COMPARED.items():
-        path = os.path.join(folder, name + ".tab")
+    for table, wanted in COMPARED.items():
+        path = os.path.join(folder, table + ".tab")
         with open(path) as file:
             heads = next(line for line in file if line.startswith("# time")).split()[1:]
         rows = np.loadtxt(path)
-        found.update({(name, head): rows[:, heads.index(head)] for head in wanted})
+        found.update({(table, head): rows[:, heads.index(head)] for head in wanted})
     return found
 
 
-def main():
-    with open(os.path.join(ROOT, "doc/developer.md")) as file:
-        text = section(file.read(), "A new linear solver, step by step")
-    copy_tree()
+def with_engine(deck, cards):
+    """The scene with more cards."""
+    return deck.replace("*END", cards + "*END")
+
+
+def with_scheme(deck, cards):
+    """The scene with another time card."""
+    text, one = re.subn(r"\*BIPACT_TIME\n(?:\$.*\n)*.*\n", cards, deck)
+    if one != 1:
+        sys.exit("the scene has no time card")
+    return text
+
+
+# Title of a section, lines of code that it adds, what its cards do to a scene, whose tables must
+# be the same: name, cards.
+WALKS = (
+    ("A new linear solver, step by step", 3, with_engine, "FULL", "LDLT", ""),
+    (
+        "A new time scheme, step by step",
+        4,
+        with_scheme,
+        "EULER",
+        "THETA",
+        "*BIPACT_TIME\nTHETA,1.0,1.0\n",
+    ),
+)
+
+
+def walk(page, deck, title, blocks_of_code, change, name, other, cards):
+    """One section, done to the letter."""
     card, commands, written = None, [], 0
-    for kind, before, body in blocks(text):
+    for kind, before, body in blocks(section(page, title)):
         if kind == "fortran":
             write_block(before, body)
             written += 1
@@ -130,11 +154,21 @@ def main():
             card = body
     for command in commands:
         print(command + ":", run(command, shell=True).splitlines()[-1])
-    full, ldlt = columns("FULL", card), columns("LDLT", "")
-    off = max(np.abs(full[k] - ldlt[k]).max() / np.abs(ldlt[k]).max() for k in ldlt)
-    print("FULL against LDLT in %d columns: %.1e, bound %.1e" % (len(ldlt), off, BOUND))
-    if not (written == 3 and len(commands) > 3 and off <= BOUND):
+    new, old = columns(name, change(deck, card)), columns(other, change(deck, cards))
+    off = max(np.abs(new[k] - old[k]).max() / np.abs(old[k]).max() for k in old)
+    print("%s against %s in %d columns: %.1e, bound %.1e" % (name, other, len(old), off, BOUND))
+    if not (written == blocks_of_code and len(commands) > 2 and off <= BOUND):
         sys.exit("the walk-through does not lead where it says")
+
+
+def main():
+    with open(os.path.join(ROOT, "doc/developer.md")) as file:
+        page = file.read()
+    with open(os.path.join(ROOT, SCENE)) as file:
+        deck = file.read()
+    copy_tree()
+    for one in WALKS:
+        walk(page, deck, *one)
 
 
 main()
