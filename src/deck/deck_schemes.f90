@@ -13,6 +13,7 @@ module deck_schemes
     logical :: takes_alpha = .false.       !< ALPHA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_rho = .false.         !< RHOINF
     logical :: takes_redist = .true.       !< massless contact nodes
+    logical :: takes_damping = .true.      !< *DAMPING_...
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
   end type scheme_traits_t
 

@@ -18,15 +18,20 @@ module time_base
 
   !> One solve of a step: A x = b + H' r with A = cM M + cC C + cK K and
   !> b = (inertia, by the scheme) + load_weight(1) P0 + load_weight(2) P1
-  !>     - force_weight K (U0 + force_lead V0).
+  !>     - force_weight K (U0 + force_lead V0) - C (rate_weight(1) V0 + rate_weight(2) A0).
+  !> The damping force that acts in the stage is C (cC x + rate_weight(1) V0 + rate_weight(2)
+  !> A0), counted over the step like the contact force: over contact_factor, with weight_before
+  !> and weight_now of the scheme.
   type, public :: stage_t
     real(wp) :: c_m = zero   !< [1/T2]
+    real(wp) :: c_c = zero       !< on the damping of the deck [1/T]
     real(wp) :: c_layer = zero   !< on the layer of massless nodes
     real(wp) :: c_k = zero
     real(wp) :: contact_factor = one         !< of the contact force in A x = b + factor H' r
     real(wp) :: load_weight(2) = [zero, one]
     real(wp) :: force_weight = one
     real(wp) :: force_lead = zero            !< [T]
+    real(wp) :: rate_weight(2) = zero        !< [1], [T]
   end type stage_t
 
   type, abstract, public :: scheme_t

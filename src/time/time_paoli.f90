@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> PAOLI: the central difference with contact on positions (Paoli & Schatzman 1993), with
 !> beta = 1/4, implicit (our choice). State: U_n and V- = (U_n - U_{n-1})/h.
-!>   [M/h^2 + beta K] x = M V-/h + P_n - K (U_n - beta h V-) + r,  U_{n+1} = U_n + x,  V+ = x/h,
+!>   [M/h^2 + C/(2 h) + beta K] x = M V-/h + P_n - K (U_n - beta h V-) - C V-/2 + r,
+!>   U_{n+1} = U_n + x,  V+ = x/h,
 !> the gap at U_{n+1} is not negative. Two steps of the theta-method at theta = xi = 1/2 with
 !> their mean contact force are one of this: that mean obeys the law of contact, and does not
 !> alternate. In the first step V- is V0 and half the forces act. Forces do work on
@@ -51,7 +52,8 @@ contains
     this%h = h
     share = merge(half, one, this%is_first)
     this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, contact_factor=share, &
-        load_weight=[share, zero], force_weight=share, force_lead=-this%beta*h/share)]
+        load_weight=[share, zero], force_weight=share, force_lead=-this%beta*h/share, &
+        c_c=half/h, rate_weight=[share - half, zero])]
     this%weight_now = share
     this%load_work_weight = [share, zero]
     this%staggered%on = .true.
