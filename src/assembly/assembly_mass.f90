@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Element masses: consistent, lumped, dispersion-tuned; where the mass of massless contact nodes
-!> goes; and their sum.
+!> Element masses: consistent, lumped, dispersion-tuned; where the mass of massless contact
+!> nodes goes; and their sum.
 module assembly_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_deck

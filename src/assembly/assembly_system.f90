@@ -174,8 +174,8 @@ contains
     end do
   end subroutine assemble_stiffness
 
-  !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal
-  !> only, so that a right-hand side of zero there gives a displacement of zero.
+  !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their
+  !> diagonal only, so that a right-hand side of zero there gives a displacement of zero.
   subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_c, c_layer, c_k

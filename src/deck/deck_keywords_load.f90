@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keywords of motion and load: initial velocities, supports, prescribed motions, loads, damping,
-!> curves.
+!> Keywords of motion and load: initial velocities, supports, prescribed motions, loads,
+!> damping, curves.
 module deck_keywords_load
   use deck_table, only: table_t, add_keyword, add_card, add_field
   implicit none
@@ -202,7 +202,7 @@ contains
     call add_card(table)
     call add_field(table, id, 'I10 req >0', what)
     call add_field(table, 'COEF', 'R10 =0.0 [T]', &
-        '< 0: C = |COEF| K of the part; 0 = none; > 0 is not available')
+        '< 0: C = -COEF K of the part; 0 = none; > 0 is not available')
   end subroutine add_part_damping
 
   subroutine add_curve(table)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Damping of the deck in the run: its coefficients in force, its force in the right-hand side of
-!> a stage, and its work. Only scenes that have damping come here. What a stage says (c_c,
+!> Damping of the deck in the run: its coefficients in force, its force in the right-hand side
+!> of a stage, and its work. Only scenes that have damping come here. What a stage says (c_c,
 !> rate_weight) is all that is needed of a scheme.
 module run_damping
   use assembly_damping, only: set_mass_damping, subtract_damping_force
@@ -104,8 +104,8 @@ contains
     end associate
   end subroutine add_start_rate
 
-  !> The damping force that acted in a stage, C (cC x + w1 V0 + w2 A0), from its motion x and the
-  !> state before its update.
+  !> The damping force that acted in a stage, C (cC x + w1 V0 + w2 A0), from its motion x and
+  !> the state before its update.
   subroutine keep_damping(run, stage)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage

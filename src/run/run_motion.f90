@@ -136,8 +136,8 @@ contains
     if (allocated(run%shift)) call add_shift(run%shift, -x, b)
   end subroutine subtract_product
 
-  !> Reactions of a state [F], M A + C V + K U - P - H' r, for schemes that weigh forces of both ends
-  !> of a step: at t = 0, and where a run goes on that kept none.
+  !> Reactions of a state [F], M A + C V + K U - P - H' r, for schemes that weigh forces of both
+  !> ends of a step: at t = 0, and where a run goes on that kept none.
   subroutine start_reactions(run)
     type(run_t), intent(inout) :: run
     real(wp), allocatable :: misfit(:, :)

@@ -78,6 +78,8 @@ contains
     damping%factor = deck%real(r, 'VALDMP')
     if (deck%integer(r, 'LCID') > 0) then
       damping%curve = curve_of(deck, model, maps, r)
+      if (damping%factor > zero) call add_note(deck%problems, &
+          'VALDMP of *DAMPING_GLOBAL has no effect: LCID gives the coefficient')
       damping%factor = 1.0_wp
       call check_curve(deck, model, r, damping%curve)
     end if
@@ -123,8 +125,8 @@ contains
         call claim(deck, model, card(m), k == 2, part, 'stiffness', owner)
         coefficient(part) = -deck%real(card(m), 'COEF')
         if (any(coefficient(part) < zero)) call deck%complain(card(m), 'COEF', &
-            'expected a number below 0: damping by a fraction of the critical one (above 0) '// &
-            'is not available in this version', 'give minus the coefficient of Rayleigh '// &
+            'expected a number below 0: damping by a fraction of the critical one (above '// &
+            '0) is not available in this version', 'give minus the coefficient of Rayleigh '// &
             '[T]: at the angular frequency w it is the fraction |COEF| w/2')
       end do
     end do

@@ -8,18 +8,18 @@ sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
 from scenes import at_most, check, deck, finish, run_text, table, two_blocks, within
 
-# Scheme card and ALPHA; the order of each in smooth motion.
+# Scheme card, and that of GAMMA, BETA, ALPHA; the order of each in smooth motion.
 SCHEMES = {
     "THETA": ("THETA,0.5,0.5", "", 2),
     "THETA1": ("THETA,1.0,1.0", "", 1),
     "NEWMARK": ("NEWMARK", "", 2),
+    "NEWMARK6": ("NEWMARK", "1,0.6,0.31", 1),
     "HHT": ("HHT", "1,,,,,,,-0.2", 2),
     "GENALPHA": ("GENALPHA,,,,0.6", "", 2),
     "PAOLI": ("PAOLI", "", 2),
 }
 # Conventions of the ledger: a step 1e-12, a run 1e-11 of the largest term (round-off of the sums).
 STEP, RUN = 1.0e-12, 1.0e-11
-CURVE = ["*DEFINE_CURVE", "{},", "0.0,{}", "{},{}"]
 
 
 def curve(number, first, end, last):
@@ -70,13 +70,14 @@ def frequency():
     """Of the first mode of the bar with consistent mass: w^2 = (6 c^2/h^2)(1 - cos)/(2 + cos)."""
     h = LENGTH / N
     cosine = np.cos(0.5 * np.pi / N)
-    return np.sqrt(6.0 * YOUNG / h**2 * (1.0 - cosine) / (2.0 + cosine))
+    return float(np.sqrt(6.0 * YOUNG / h**2 * (1.0 - cosine) / (2.0 + cosine)))
 
 
 def decay():
     """Free decay in a mode: u = exp(-z w t) sin(w_d t)/w_d, z w = (a + b w^2)/2, w_d^2 = w^2 -
     (z w)^2, exact for the mesh; so what is left is the error in time, of the order of the scheme
-    (0.1 about it: the next term of the error at 80 steps a period)."""
+    (0.1 about it: the next term of the error at 80 steps a period): a phase of (w h)^2/12 w T = 2e-4
+    for the second, an amplitude of about w^2 h T/2 = 6e-2 of one that decays, 2e-2, for the first."""
     w = frequency()
     a, b = 0.4 * w, 0.3 / w
     rate = 0.5 * (a + b * w**2)
@@ -113,21 +114,21 @@ def flight():
     cards = ["*DAMPING_GLOBAL", "1,0.0,1.0"]
     for scheme in SCHEMES:
         errors = []
-        for steps in (20, 40):
+        for steps in (80, 160):
             text = deck(lines, tend / steps, tend, scheme="SCHEME", history=[1], extra=cards)
             folder = run("flight%d" % steps, text, scheme)
             close(folder, "flight, %s" % scheme)
             rows = table(folder, "nodout")
-            exact = np.exp(-0.5 * s * rows["time"] ** 2)
             # PAOLI gives the velocity of the middle of the last step.
             at = rows["time"] - (0.5 * tend / steps if scheme == "PAOLI" else 0.0)
             exact = np.exp(-0.5 * s * at[1:] ** 2)
             errors.append(np.abs(rows["vx"][1:] - exact).max())
-            at_most(np.abs(rows["vy"] - 1.0).max(), 1.0e-12, "flight, %s: vy" % scheme)
+            # What nothing damps keeps its momentum, to the round-off of a solve a step.
+            at_most(np.abs(rows["vy"] - 1.0).max(), RUN, "flight, %s: vy" % scheme)
             with open(os.path.join(folder, "bipact.log")) as log:
-                check("factors %d" % steps in log.read(), "flight, %s: factors" % scheme)
+                check("factorisations %d," % steps in log.read(), "flight, %s: factors" % scheme)
         order = SCHEMES[scheme][2]
-        within(np.log2(errors[0] / errors[1]), order - 0.2, order + 0.2, "flight, %s: order" % scheme)
+        within(np.log2(errors[0] / errors[1]), order - 0.1, order + 0.1, "flight, %s: order" % scheme)
 
 
 def ledgers():
@@ -145,18 +146,16 @@ def ledgers():
             if scheme == "PAOLI" and mass.endswith("1"):
                 continue
             text = deck(lines, 1.0e-3, 0.1, scheme="SCHEME", mass=mass, mu=0.4, extra=cards)
-            if scheme == "NEWMARK":
-                text = text.replace("2,-1e-3", "2,-1e-3")
             folder = run("ledger_" + mass.replace(",", ""), text, scheme)
             g = close(folder, "%s, %s" % (scheme, mass))
             check(g["damping"][-1] > 0.01 * g["initial"][-1], "%s, %s: damping" % (scheme, mass))
-            if scheme != "NEWMARK":
+            if not scheme.startswith("NEWMARK"):
                 check(g["friction"][-1] > 0.0, "%s, %s: friction" % (scheme, mass))
 
 
 def parts_add_up():
-    """The same coefficient by one card of all parts, by a card for each, and by the set of all: the
-    same motion, to the round-off of sums in another order."""
+    """The same coefficient by one card of all parts, by a card for each, and by the set of all: each
+    element has the same number, so the tables are the same."""
     lines, _ = two_blocks(base=(1.0, 1.0), gap=0.02)
     lines += curve(1, 2.0, 1.0, 2.0) + ["*INITIAL_VELOCITY_GENERATION", "2,2,0.0,0.3,-2.0", ","]
     lines += ["*SET_PART_LIST", "13,", "1,2"]
@@ -170,11 +169,10 @@ def parts_add_up():
             )
         ):
             text = deck(lines, 1e-3, 0.05, scheme="SCHEME", mass=mass, mu=0.2, history=[1], extra=cards)
-            runs.append(table(run("sum%d" % k, text, "THETA"), "glstat"))
-        for other in runs[1:]:
-            for column in ("kinetic", "damping"):
-                size = np.abs(runs[0][column]).max()
-                at_most(np.abs(other[column] - runs[0][column]).max() / size, 1e-9, "sum: " + column)
+            folder = run("sum%d" % k, text, "THETA")
+            runs.append(open(os.path.join(folder, "glstat.tab")).read())
+        check(runs[1] == runs[0], "%s: a card for each part" % mass)
+        check(runs[2] == runs[0], "%s: a card of the set" % mass)
 
 
 def incline():
@@ -238,17 +236,23 @@ def statics():
         check(said == (name == "damped"), "static, %s: the note" % name)
     check(tabs[0] == tabs[1], "static: damping changes nothing")
     start = INCLINE.replace("DYNAMICS\n1,", "DYNAMICS\n1,,,0.5").replace("*END", card + "*END")
+    moved = start.replace("*END", "*INITIAL_VELOCITY\n0,\n0.0,0.2\n*END")
     for scheme in SCHEMES:
-        text = start.replace("THETA,0.5,0.5", "SCHEME")
-        alpha = SCHEMES[scheme][1]
-        if alpha:
-            text = text.replace("DYNAMICS\n1,,,0.5", "DYNAMICS\n1,,,0.5,,,,-0.2")
-        text = text.replace("SCHEME", SCHEMES[scheme][0])
-        folder, code, errors = run_text("static_start_" + scheme, text)
-        check(code == 0, "static start, %s: exit code %d: %s" % (scheme, code, errors))
-        close(folder, "static start, %s" % scheme)
-        g = table(folder, "glstat")
-        at_most(np.abs(g["damping"]).max(), 1e-12 * g["internal"].max(), "static start: damping")
+        for name, text in (("static start", start), ("thrown", moved)):
+            text = text.replace("THETA,0.5,0.5", SCHEMES[scheme][0])
+            if SCHEMES[scheme][1]:
+                card = SCHEMES[scheme][1].split(",") + [""] * 3
+                card[3] = "0.5"
+                text = text.replace("DYNAMICS\n1,,,0.5", "DYNAMICS\n" + ",".join(card[:8]))
+            folder, code, errors = run_text("%s_%s" % (name.replace(" ", "_"), scheme), text)
+            check(code == 0, "%s, %s: exit code %d: %s" % (name, scheme, code, errors))
+            g = close(folder, "%s, %s" % (name, scheme))
+            if name == "thrown":
+                check(g["damping"][-1] > 0.2 * g["kinetic"].max(), "thrown, %s: damping" % scheme)
+            else:
+                # A state of rest stays: nothing is left to damp but round-off.
+                most = 1e-12 * g["internal"].max()
+                at_most(np.abs(g["damping"]).max(), most, name + ": damping")
 
 
 if __name__ == "__main__":

@@ -25,10 +25,11 @@ program test_part
 
 contains
 
-  !> Few nodes, many nodes, all nodes; is_damped, is_lumped: what the scene is here for.
-  subroutine test_scene(deck, is_damped, is_lumped)
+  !> Few nodes, many nodes, all nodes; what the scene is here for: a layer of massless nodes, or
+  !> a lumped mass with damping by the mass and by the stiffness.
+  subroutine test_scene(deck, has_layer, is_lumped)
     character(*), intent(in) :: deck
-    logical, intent(in) :: is_damped, is_lumped
+    logical, intent(in) :: has_layer, is_lumped
     type(run_t) :: run
     type(override_t) :: overrides(0)
     type(status_t) :: status
@@ -36,7 +37,8 @@ contains
     call read_scene(deck, overrides, run, status)
     call set_up(run, status)
     call check_true(.not. failed(status), deck//' is set up')
-    call check_true(size(run%system%massless_layer) > 0 .eqv. is_damped, deck//': C')
+    call check_true(size(run%system%massless_layer) > 0 .eqv. has_layer, deck//': the layer')
+    call check_true(allocated(run%system%damping) .eqv. is_lumped, deck//': damping')
     call check_true(run%system%mass_is_diagonal .eqv. is_lumped, deck//': a diagonal mass')
     wrong = 0
     do k = 1, 50
