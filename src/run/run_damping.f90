@@ -4,7 +4,7 @@
 !> rate_weight) is all that is needed of a scheme.
 module run_damping
   use assembly_damping, only: set_mass_damping, subtract_damping_force
-  use base_archive, only: archive_t
+  use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one
   use model_data, only: curve_value
   use run_data, only: run_t
@@ -12,7 +12,7 @@ module run_damping
   implicit none
   private
   public :: make_damping, start_damping, update_damping, subtract_damping, keep_damping, &
-      damping_work, exchange_damping, restore_damping
+      damping_work, exchange_damping
 
 contains
 
@@ -137,21 +137,16 @@ contains
         work = work + run%scheme%weight_before*sum(motion*run%damping%force_before)
   end function work_on
 
-  !> Saves to or restores from the archive: the coefficients that the matrix has, and the force
-  !> of the last end where the next step counts it.
+  !> Saves to or restores from the archive: the coefficients in force, from which C is made
+  !> anew, and the force of the last end where the next step counts it.
   subroutine exchange_damping(archive, run)
     type(archive_t), intent(inout) :: archive
     type(run_t), intent(inout) :: run
     call archive%exchange('damping.value', run%damping%value)
     if (allocated(run%damping%force_before)) &
         call archive%exchange('damping.force', run%damping%force)
-  end subroutine exchange_damping
-
-  !> The matrix of coefficients that were restored.
-  subroutine restore_damping(run)
-    type(run_t), intent(inout) :: run
-    if (size(run%damping%value) > 0) &
+    if (archive%mode == archive_restore .and. size(run%damping%value) > 0) &
         call set_mass_damping(run%model, run%damping%value, run%system)
-  end subroutine restore_damping
+  end subroutine exchange_damping
 
 end module run_damping

@@ -19,7 +19,6 @@ module run_resume
   use output_storage, only: restart_header_t
   use output_table, only: next_due, table_file_t
   use output_tables, only: check_tables, retime_tables
-  use run_damping, only: restore_damping
   use run_data, only: run_t
   use run_frames, only: check_segments
   use run_motion, only: hold_active, start_reactions
@@ -116,7 +115,6 @@ contains
     if (origin%new_nodal .and. run%contact%listed > 0) call check_listed(run%model, &
         run%contact, run%state%u, run%state%du, run%state%cycle, status)
     if (run%plan%motions) call hold_active(run)
-    if (run%plan%damping) call restore_damping(run)
     if (origin%new_reactions) call start_reactions(run)
   end subroutine restore
 
