@@ -104,6 +104,11 @@ SCENE = (
         ("LOAD_SEGMENT", [{"LCID": 1, "SF": 0.1, "AT": 0.005, "N1": 113, "N2": 112}]),
         ("LOAD_BODY_X", [{"LCID": 1, "SF": 0.0001}]),
         ("LOAD_BODY_Y", [{"LCID": 1, "SF": 10.0}]),
+        ("DAMPING_GLOBAL", [{"LCID": 0, "VALDMP": 0.0}]),
+        ("DAMPING_PART_MASS", [{"PID": 1, "LCID": 1, "SF": 5.0}]),
+        ("DAMPING_PART_MASS_SET", [{"PSID": 2, "LCID": 1, "SF": 10.0}]),
+        ("DAMPING_PART_STIFFNESS", [{"PID": 1, "COEF": "-1.0E-5"}]),
+        ("DAMPING_PART_STIFFNESS_SET", [{"PSID": 2, "COEF": "-2.0E-5"}]),
         ("CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", [{"SURFA": 1, "SURFB": 2, "FS": "&mu"}]),
         (
             "CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE",

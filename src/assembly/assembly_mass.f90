@@ -1,15 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Element masses: consistent, lumped, dispersion-tuned; and where the mass of massless contact
-!> nodes goes.
+!> Element masses: consistent, lumped, dispersion-tuned; where the mass of massless contact
+!> nodes goes; and their sum.
 module assembly_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
-  use element_base, only: element_t
+  use element_base, only: element_t, element_slot_t
+  use linalg_graph, only: graph_t
   use model_data, only: model_t, node_count
   implicit none
   private
-  public :: element_mass, redistribution_targets
+  public :: element_mass, redistribution_targets, assemble_mass
 
 contains
 
@@ -48,6 +49,40 @@ contains
       me(:k - 1, k) = zero
     end do
   end subroutine element_mass
+
+  !> M* = T' M T, each element with the weight of its part: the rows and columns of a massless
+  !> node go to its targets, in equal shares. mass(:) on the graph [M times the weight].
+  subroutine assemble_mass(model, element, graph, first, target, weight, mass)
+    type(model_t), intent(in) :: model
+    type(element_slot_t), intent(in) :: element(3:)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: first(:), target(:)
+    real(wp), intent(in) :: weight(:)
+    real(wp), intent(out) :: mass(:)
+    real(wp) :: me(4, 4), share
+    integer :: e, i, j, a, b, position
+    mass = zero
+    do e = 1, model%elements
+      if (.not. abs(weight(model%element_part(e))) > zero) cycle
+      call element_mass(model, element(node_count(model%connectivity(:, e)))%item, e, me)
+      me = weight(model%element_part(e))*me
+      do j = 1, 4
+        associate (nj => model%connectivity(j, e))
+          do i = 1, 4
+            associate (ni => model%connectivity(i, e))
+              share = me(i, j)/real((first(ni + 1) - first(ni))*(first(nj + 1) - first(nj)), wp)
+              do b = first(nj), first(nj + 1) - 1
+                do a = first(ni), first(ni + 1) - 1
+                  position = graph%position(target(a), target(b))
+                  mass(position) = mass(position) + share
+                end do
+              end do
+            end associate
+          end do
+        end associate
+      end do
+    end do
+  end subroutine assemble_mass
 
   !> Where the mass of each node goes: itself, or for a massless contact node the inner
   !> neighbours, i.e. the nodes joined to it by an element edge that are no contact nodes

@@ -1,10 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The matrices of the bodies: node graph, mass, element stiffness, and the effective matrix of
-!> a time scheme, A = cM M + cC C + cK K, with C = K of the elements that hold massless nodes.
+!> a time scheme, A = cM M + cC C + cL L + cK K, with C the damping of the deck and L = K of the
+!> elements that hold massless nodes.
 module assembly_system
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
-  use assembly_mass, only: element_mass, redistribution_targets
+  use assembly_mass, only: assemble_mass, redistribution_targets
   use element_base, only: element_slot_t
   use element_registry, only: make_element
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
@@ -12,6 +13,16 @@ module assembly_system
   use model_data, only: model_t, node_count
   implicit none
   private
+
+  !> Damping of the deck, C = (by direction) sum a_p M_p + sum |COEF_p| K_p over the parts.
+  type, public :: damping_t
+    !> (2, *) sum a_p M_p by direction, on the graph or, where the mass is diagonal, by nodes
+    !> [M/T]; only with damping by mass
+    real(wp), allocatable :: mass(:, :)
+    integer, allocatable :: first(:), target(:)  !< where the mass of each node goes
+    integer, allocatable :: element(:)           !< elements damped by their stiffness
+    real(wp), allocatable :: coefficient(:)      !< |COEF| of each of them [T]
+  end type damping_t
 
   type, public :: system_t
     integer :: n = 0
@@ -26,6 +37,7 @@ module assembly_system
     !> drops out before anything is multiplied, so a flying body has no internal force at all.
     real(wp), allocatable :: stiffness(:, :, :)
     integer, allocatable :: massless_layer(:)  !< elements with a massless node
+    type(damping_t), allocatable :: damping    !< only where the deck has it
     !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
     !> node of each: set together, by CONSTRAIN
     logical, allocatable :: fixed(:, :)
@@ -46,6 +58,7 @@ contains
     type(system_t), intent(out) :: system
     type(status_t), intent(inout) :: status
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
+    integer :: k
     system%n = model%nodes
     system%node = model%connectivity
     call make_element(3, system%element(3)%item)
@@ -54,14 +67,19 @@ contains
     if (failed(status)) return
     call element_cliques(model, first, target, clique_first, clique)
     call graph_from_cliques(model%nodes, clique_first, clique, system%graph)
-    call assemble_mass(model, first, target, system)
+    allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
+    call assemble_mass(model, system%element, system%graph, first, target, &
+        [(one, k=1, size(model%part))], system%mass)
+    call row_sums(system)
     call assemble_stiffness(model, system)
-    call find_damped(model, massless, system)
+    call find_layer(model, massless, system)
+    if (allocated(model%mass_damping) .or. allocated(model%stiffness_damping)) &
+        call make_damping(model, first, target, system)
     call constrain(system, model%fixed)
   end subroutine make_system
 
   !> Elements that hold a massless node.
-  pure subroutine find_damped(model, massless, system)
+  pure subroutine find_layer(model, massless, system)
     type(model_t), intent(in) :: model
     integer, intent(in) :: massless(:)
     type(system_t), intent(inout) :: system
@@ -71,7 +89,29 @@ contains
     is_massless(massless) = .true.
     system%massless_layer = pack([(e, e=1, model%elements)], &
         [(any(is_massless(model%connectivity(:, e))), e=1, model%elements)])
-  end subroutine find_damped
+  end subroutine find_layer
+
+  !> Damping: the elements by stiffness, room for that by mass, whose coefficients may change
+  !> (set_mass_damping).
+  pure subroutine make_damping(model, first, target, system)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: first(:), target(:)
+    type(system_t), intent(inout) :: system
+    integer :: e
+    allocate (system%damping)
+    associate (d => system%damping)
+      allocate (d%element(0), d%coefficient(0))
+      if (allocated(model%stiffness_damping)) d%element = pack([(e, e=1, model%elements)], &
+          model%stiffness_damping(model%element_part) > zero)
+      if (allocated(model%stiffness_damping)) &
+          d%coefficient = model%stiffness_damping(model%element_part(d%element))
+      if (.not. allocated(model%mass_damping)) return
+      d%first = first
+      d%target = target
+      allocate (d%mass(2, merge(system%n, size(system%mass), system%mass_is_diagonal)))
+      d%mass = zero
+    end associate
+  end subroutine make_damping
 
   !> Each element's nodes together with the nodes that take over their mass.
   pure subroutine element_cliques(model, first, target, clique_first, clique)
@@ -100,37 +140,6 @@ contains
       if (pass == 1) allocate (clique(m))
     end do
   end subroutine element_cliques
-
-  !> M* = T' M T: the rows and columns of a massless node go to its targets, in equal shares.
-  subroutine assemble_mass(model, first, target, system)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: first(:), target(:)
-    type(system_t), intent(inout) :: system
-    real(wp) :: me(4, 4), share
-    integer :: e, i, j, a, b, position
-    allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
-    system%mass = zero
-    do e = 1, model%elements
-      call element_mass(model, &
-          system%element(node_count(model%connectivity(:, e)))%item, e, me)
-      do j = 1, 4
-        associate (nj => model%connectivity(j, e))
-          do i = 1, 4
-            associate (ni => model%connectivity(i, e))
-              share = me(i, j)/real((first(ni + 1) - first(ni))*(first(nj + 1) - first(nj)), wp)
-              do b = first(nj), first(nj + 1) - 1
-                do a = first(ni), first(ni + 1) - 1
-                  position = system%graph%position(target(a), target(b))
-                  system%mass(position) = system%mass(position) + share
-                end do
-              end do
-            end associate
-          end do
-        end associate
-      end do
-    end do
-    call row_sums(system)
-  end subroutine assemble_mass
 
   pure subroutine row_sums(system)
     type(system_t), intent(inout) :: system
@@ -165,11 +174,11 @@ contains
     end do
   end subroutine assemble_stiffness
 
-  !> A = cM M + cC C + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their diagonal
-  !> only, so that a right-hand side of zero there gives a displacement of zero.
-  subroutine effective_matrix(system, c_m, c_layer, c_k, matrix)
+  !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their
+  !> diagonal only, so that a right-hand side of zero there gives a displacement of zero.
+  subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix)
     type(system_t), intent(in) :: system
-    real(wp), intent(in) :: c_m, c_layer, c_k
+    real(wp), intent(in) :: c_m, c_c, c_layer, c_k
     type(block_matrix_t), intent(inout) :: matrix
     integer :: e, i, k
     if (.not. allocated(matrix%value)) allocate (matrix%value(2, 2, size(system%graph%column)))
@@ -184,6 +193,8 @@ contains
         call add_stiffness(system, system%massless_layer(k), c_layer, matrix)
       end do
     end if
+    if (allocated(system%damping) .and. abs(c_c) > zero) &
+        call add_damping(system, c_c, matrix)
     do k = 1, size(system%graph%column)
       matrix%value(1, 1, k) = matrix%value(1, 1, k) + c_m*system%mass(k)
       matrix%value(2, 2, k) = matrix%value(2, 2, k) + c_m*system%mass(k)
@@ -196,6 +207,27 @@ contains
       end do
     end do
   end subroutine effective_matrix
+
+  !> matrix = matrix + factor * C.
+  pure subroutine add_damping(system, factor, matrix)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: factor
+    type(block_matrix_t), intent(inout) :: matrix
+    integer :: d, i, k
+    associate (c => system%damping)
+      do k = 1, size(c%element)
+        call add_stiffness(system, c%element(k), factor*c%coefficient(k), matrix)
+      end do
+      if (.not. allocated(c%mass)) return
+      do i = 1, size(c%mass, 2)
+        k = i
+        if (system%mass_is_diagonal) k = system%graph%position(i, i)
+        do d = 1, 2
+          matrix%value(d, d, k) = matrix%value(d, d, k) + factor*c%mass(d, i)
+        end do
+      end do
+    end associate
+  end subroutine add_damping
 
   pure subroutine clear_block(row, column, diagonal, block)
     logical, intent(in) :: row(2), column(2), diagonal

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keywords of motion and load: initial velocities, supports, prescribed motions, loads, curves.
+!> Keywords of motion and load: initial velocities, supports, prescribed motions, loads,
+!> damping, curves.
 module deck_keywords_load
   use deck_table, only: table_t, add_keyword, add_card, add_field
   implicit none
@@ -22,6 +23,9 @@ contains
     call add_segment_loads(table)
     call add_body_load(table, 'LOAD_BODY_X')
     call add_body_load(table, 'LOAD_BODY_Y')
+    call add_damping(table)
+    call add_part_damping(table, '', 'PID', 'part')
+    call add_part_damping(table, '_SET', 'PSID', 'part set')
     call add_curve(table)
   end subroutine add_load_keywords
 
@@ -167,6 +171,39 @@ contains
     call add_field(table, 'ZC', 'R10 fixed')
     call add_field(table, 'CID', 'I10 fixed')
   end subroutine add_body_load
+
+  subroutine add_damping(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'DAMPING_GLOBAL', 'damping by the mass of all parts', once=.true., &
+        required=1)
+    call add_card(table)
+    call add_field(table, 'LCID', 'I10 =0 >=0', 'curve of the coefficient [1/T]; 0 = VALDMP')
+    call add_field(table, 'VALDMP', 'R10 =0.0 [1/T] >=0', 'coefficient without a curve')
+    call add_field(table, 'STX', 'R10 =0.0 >=0', 'scale in x; all scales 0 = all 1')
+    call add_field(table, 'STY', 'R10 =0.0 >=0', 'scale in y')
+    call add_field(table, 'STZ', 'R10 ignored')
+    call add_field(table, 'SRX', 'R10 ignored')
+    call add_field(table, 'SRY', 'R10 ignored')
+    call add_field(table, 'SRZ', 'R10 ignored')
+  end subroutine add_damping
+
+  subroutine add_part_damping(table, option, id, what)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: option, id, what
+    call add_keyword(table, 'DAMPING_PART_MASS'//option, 'damping by the mass of a '//what, &
+        repeat_from=1, required=1)
+    call add_card(table)
+    call add_field(table, id, 'I10 req >0', what)
+    call add_field(table, 'LCID', 'I10 req >0', 'curve of the coefficient [1/T] over time')
+    call add_field(table, 'SF', 'R10 =1.0 0=d >0', 'factor of the curve')
+    call add_field(table, 'FLAG', 'I10 fixed')
+    call add_keyword(table, 'DAMPING_PART_STIFFNESS'//option, &
+        'damping by the stiffness of a '//what, repeat_from=1, required=1)
+    call add_card(table)
+    call add_field(table, id, 'I10 req >0', what)
+    call add_field(table, 'COEF', 'R10 =0.0 [T]', &
+        '< 0: C = -COEF K of the part; 0 = none; > 0 is not available')
+  end subroutine add_part_damping
 
   subroutine add_curve(table)
     type(table_t), intent(inout) :: table

@@ -30,8 +30,6 @@ contains
     call refuse(table, 'ELEMENT_SOLID', 'models are plane: *ELEMENT_SHELL')
     call refuse(table, 'SECTION_SOLID', 'models are plane: *SECTION_SHELL')
     call refuse(table, 'LOAD_BODY_Z', 'models are plane')
-    call refuse(table, 'DAMPING_GLOBAL', '')
-    call refuse(table, 'DAMPING_PART_STIFFNESS', '')
     call refuse(table, 'CONTACT_AUTOMATIC_SURFACE_TO_SURFACE', &
         'plane models take *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE')
     call refuse(table, 'DEFINE_TRANSFORMATION', '')

@@ -17,6 +17,7 @@ module deck_schemes
     logical :: takes_pbeta = .false.       !< PBETA
     logical :: takes_dispersion = .true.   !< the mass DISPERSION, which may be singular
     logical :: takes_redist = .true.       !< massless contact nodes
+    logical :: takes_damping = .true.      !< *DAMPING_...
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
   end type scheme_traits_t
 
@@ -33,7 +34,8 @@ module deck_schemes
       takes_redist=.false.), &
       scheme_traits_t('THETAPV', takes_dispersion=.false., takes_redist=.false.), &
       scheme_traits_t('NSGENALPHA', takes_rho=.true., takes_restitution=.true., &
-      takes_dispersion=.false., takes_redist=.false., has_acceleration=.true.), &
+      takes_dispersion=.false., takes_redist=.false., takes_damping=.false., &
+      has_acceleration=.true.), &
       scheme_traits_t('CSNEWMARK', takes_dispersion=.false., takes_redist=.false.)]
 
   public :: traits_of

@@ -55,6 +55,14 @@ module model_data
     real(wp) :: arrival = 0.0_wp          !< [T]
   end type load_t
 
+  !> Damping by the mass of parts: a M of each, a = factor * curve, or factor alone [1/T].
+  type, public :: mass_damping_t
+    integer, allocatable :: part(:)       !< rows
+    integer :: curve = 0                  !< 0 = none: constant
+    real(wp) :: factor = 0.0_wp
+    real(wp) :: scale(2) = 1.0_wp         !< of a by direction
+  end type mass_damping_t
+
   !> Body load: acceleration of all mass = - factor * curve [L/T2].
   type, public :: gravity_t
     integer :: direction = 1
@@ -190,6 +198,10 @@ module model_data
     type(curve_t), allocatable :: curve(:)
     type(load_t), allocatable :: load(:)
     type(gravity_t), allocatable :: gravity(:)
+    !> Only with damping: its cards by mass, and |COEF| of each part, its damping by stiffness
+    !> [T].
+    type(mass_damping_t), allocatable :: mass_damping(:)
+    real(wp), allocatable :: stiffness_damping(:)
     type(motion_t), allocatable :: motion(:)
     type(contact_card_t), allocatable :: contact(:)
     type(wall_t), allocatable :: wall(:)

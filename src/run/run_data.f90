@@ -40,6 +40,7 @@ module run_data
     logical :: loads = .false.
     logical :: motions = .false.
     logical :: reactions = .false.   !< of held dofs, at every step
+    logical :: damping = .false.     !< of the deck
     logical :: ledger = .false.
     logical :: refinement = .false.
     integer :: refined_from = huge(1)  !< number of steps before the first that is refined
@@ -57,6 +58,14 @@ module run_data
     type(block_matrix_t) :: matrix
     real(wp), allocatable :: schur_inverse(:, :)
   end type operator_t
+  !> Damping of the deck.
+  type, public :: damping_state_t
+    real(wp), allocatable :: value(:)            !< of each card by mass, in force [1/T]
+    real(wp), allocatable :: rate(:, :)          !< (2, n) work space [L/T]
+    real(wp), allocatable :: force(:, :)         !< (2, n) of the step just done [F]
+    !> (2, n) that at its begin, only for schemes that count both [F]
+    real(wp), allocatable :: force_before(:, :)
+  end type damping_state_t
 
   type, public :: run_t
     type(deck_t) :: deck
@@ -92,6 +101,7 @@ module run_data
     real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
     real(wp), allocatable :: first_reaction(:, :)          !< of the first of two stages [F]
     real(wp), allocatable :: smooth_reaction(:, :)         !< the part that is a load [F]
+    type(damping_state_t), allocatable :: damping          !< only where the deck has it
     ! Only in statics of bodies that supports do not hold.
     real(wp), allocatable :: shift(:)                      !< (n) eps M [F/L]
     real(wp), allocatable :: x_pass(:, :), move(:, :)      !< (2, n) last pass, its change [L]

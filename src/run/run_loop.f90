@@ -15,6 +15,7 @@ module run_loop
   use contact_stage, only: evaluate_contact
   use contact_work, only: add_contact_step, contact_work_t
   use output_tables, only: any_due, energies_due
+  use run_damping, only: update_damping, keep_damping, damping_work
   use run_data, only: run_t
   use run_frames, only: keep_frame
   use run_motion, only: activate_motions, find_reactions, reaction_work
@@ -84,6 +85,7 @@ contains
     type(status_t), intent(inout) :: status
     integer :: stage
     logical :: acting, again
+    if (run%plan%damping) call prepare_damping(run, t1, status)
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
@@ -98,6 +100,7 @@ contains
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
+      if (run%plan%damping) call keep_damping(run, stage)
       call run%scheme%update(stage, run%x, run%state)
       if (run%scheme%stage(stage)%moves) call swap(run%state%du, run%x)
       if (allocated(run%other)) call close_stage(run, stage, acting, status)
@@ -197,6 +200,16 @@ contains
     if (changed) call factor_matrix(run, .false., status)
   end subroutine prepare_motions
 
+  !> Coefficients of damping that change mean another effective matrix.
+  subroutine prepare_damping(run, t1, status)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: t1
+    type(status_t), intent(inout) :: status
+    logical :: changed
+    call update_damping(run, t1, changed)
+    if (changed) call factor_matrix(run, .false., status)
+  end subroutine prepare_damping
+
   !> Lists for the step; a larger interface means another elimination order.
   subroutine prepare_contact(run, t1, status)
     type(run_t), intent(inout) :: run
@@ -275,6 +288,7 @@ contains
       call find_motion_work(run, work)
       run%ledger%motion = run%ledger%motion + work
     end if
+    if (run%plan%damping) run%ledger%damping = run%ledger%damping + damping_work(run)
     if (allocated(run%shift)) then
       call unbalanced_work(run, work)
       run%ledger%contact%unsolved = run%ledger%contact%unsolved + work

@@ -2,6 +2,7 @@
 !> Prescribed motions and the reactions of held dofs. Only scenes that have motions or ask for
 !> reactions come here, and they pay for the elements around those dofs.
 module run_motion
+  use assembly_damping, only: subtract_damping_force
   use assembly_forces, only: add_loads, subtract_internal_force
   use assembly_part, only: part_t, rows_of_nodes, columns_of_nodes, subtract_part
   use assembly_system, only: multiply_mass, constrain, clear_fixed, set_fixed, list_dofs
@@ -130,13 +131,13 @@ contains
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(inout) :: b(:, :)
     associate (s => run%scheme%stage(stage))
-      call subtract_part(run%system, part, s%c_m, s%c_layer, s%c_k, x, b)
+      call subtract_part(run%system, part, s%c_m, s%c_c, s%c_layer, s%c_k, x, b)
     end associate
     if (allocated(run%shift)) call add_shift(run%shift, -x, b)
   end subroutine subtract_product
 
-  !> Reactions of a state [F], M A + K U - P - H' r, for schemes that weigh forces of both ends
-  !> of a step: at t = 0, and where a run goes on that kept none.
+  !> Reactions of a state [F], M A + C V + K U - P - H' r, for schemes that weigh forces of both
+  !> ends of a step: at t = 0, and where a run goes on that kept none.
   subroutine start_reactions(run)
     type(run_t), intent(inout) :: run
     real(wp), allocatable :: misfit(:, :)
@@ -147,6 +148,8 @@ contains
     call add_loads(run%model, run%system, run%state%time, one, misfit)
     call multiply_mass(run%system, -one, run%state%a, misfit)
     call subtract_internal_force(run%system, one, run%state%u, misfit)
+    if (run%plan%damping) &
+        call subtract_damping_force(run%system, one, run%state%v, misfit)
     call subtract_contact_force(run%contact, -one, misfit)
     run%reaction = zero
     do k = 1, size(run%reaction_dof, 2)
@@ -198,8 +201,8 @@ contains
     run%b = zero
     call add_loads(run%model, run%system, run%state%time, one, run%b)
     associate (part => run%reaction_part)
-      call subtract_part(run%system, part, one, zero, zero, run%state%a_smooth, run%b)
-      call subtract_part(run%system, part, zero, zero, one, run%state%u, run%b)
+      call subtract_part(run%system, part, one, zero, zero, zero, run%state%a_smooth, run%b)
+      call subtract_part(run%system, part, zero, zero, zero, one, run%state%u, run%b)
     end associate
     do k = 1, size(run%reaction_dof, 2)
       associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))

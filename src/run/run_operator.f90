@@ -101,7 +101,8 @@ contains
     type(status_t), intent(inout) :: status
     integer :: m
     associate (stage => run%scheme%stage(number))
-      call effective_matrix(run%system, stage%c_m, stage%c_layer, stage%c_k, run%matrix)
+      call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
+          run%matrix)
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     if (again) then

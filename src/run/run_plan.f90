@@ -30,6 +30,8 @@ contains
     call add_feature(plan, 'motions', plan%motions, to_text(size(model%motion))//' prescribed')
     plan%reactions = plan%motions .or. model%requests%interval(table_spcforc) > zero
     call add_feature(plan, 'reactions', plan%reactions, 'motions or *DATABASE_SPCFORC')
+    plan%damping = allocated(model%mass_damping) .or. allocated(model%stiffness_damping)
+    call add_feature(plan, 'damping', plan%damping, damping_reason(model))
     call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
         merge('1', '0', model%controls%redistribute))
     call add_feature(plan, 'kinematics', .false., &
@@ -37,6 +39,17 @@ contains
     call plan_tables(model, plan)
     call plan_storage(model, plan)
   end subroutine make_plan
+
+  pure function damping_reason(model) result(reason)
+    type(model_t), intent(in) :: model
+    character(:), allocatable :: reason
+    integer :: cards, parts
+    cards = 0
+    parts = 0
+    if (allocated(model%mass_damping)) cards = size(model%mass_damping)
+    if (allocated(model%stiffness_damping)) parts = count(model%stiffness_damping > zero)
+    reason = to_text(cards)//' by mass, '//to_text(parts)//' parts by stiffness'
+  end function damping_reason
 
   !> Number of steps; an end time that is no whole number of steps cuts the last one.
   subroutine plan_steps(model, plan)

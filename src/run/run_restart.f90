@@ -19,6 +19,7 @@ module run_restart
   use output_storage, only: restart_header_t
   use output_tables, only: flush_tables, exchange_tables
   use run_arguments, only: command_to_go_on
+  use run_damping, only: exchange_damping
   use run_data, only: run_t
   use run_frames, only: end_segment, exchange_frames
   use time_ledger, only: exchange_ledger
@@ -193,6 +194,7 @@ contains
       call archive%exchange('reaction.mean', run%mean_reaction)
     end if
     if (run%plan%motions) call archive%exchange('run.active', run%active_motion)
+    if (run%plan%damping) call exchange_damping(archive, run)
     if (allocated(run%unbalanced)) call archive%exchange('static.unbalanced', run%unbalanced)
     call exchange_progress(archive, run)
   end subroutine exchange_run

@@ -15,6 +15,7 @@ module run_setup
   use base_strings, only: to_text
   use model_data, only: controls_t
   use model_state, only: make_state
+  use run_damping, only: make_damping, start_damping, update_damping
   use run_data, only: run_t
   use run_motion, only: make_motions, start_reactions
   use run_operator, only: factor_matrix, make_operators, make_other
@@ -81,8 +82,10 @@ contains
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
     if (run%plan%reactions) call make_motions(run)
+    if (run%plan%damping) call make_damping(run, run%scheme%h)
     call run%scheme%start(run%model, run%system, run%state, status)
     if (failed(status)) return
+    if (run%plan%damping) call start_damping(run)
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     run%ledger%staggered = run%scheme%staggered
@@ -126,13 +129,16 @@ contains
     type(run_t), intent(inout) :: run
     !> Of a free body, measured: 1 to 2.4 for the momentum, twice that for the energy.
     real(wp), parameter :: factor = 5.0_wp*epsilon(zero)
-    real(wp) :: ratio, steps
+    real(wp) :: ratio, of_stiffness, steps
     integer :: k
     ratio = zero
     do k = 1, size(run%scheme%stage)
-      associate (stage => run%scheme%stage(k))
-        if (stage%c_m > zero) then
-          ratio = max(ratio, stiffness_ratio(run%system, stage%c_m, stage%c_k))
+      associate (s => run%scheme%stage(k))
+        of_stiffness = s%c_k
+        if (run%plan%damping) of_stiffness = of_stiffness &
+            + s%c_c*maxval([zero, run%system%damping%coefficient])
+        if (s%c_m > zero) then
+          ratio = max(ratio, stiffness_ratio(run%system, s%c_m, of_stiffness))
         else
           ratio = huge(zero)
         end if
@@ -186,12 +192,16 @@ contains
   subroutine start_dynamics(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
+    logical :: changed
     call make_scheme(run%model%controls, .false., run%scheme, status)
     if (run%plan%contact) call set_contact_rule(run)
     if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
     run%state%v = run%model%v0
     run%scheme%starts_in_balance = .true.
+    if (run%plan%damping) call update_damping(run, run%state%time + run%scheme%h, changed)
     call run%scheme%start(run%model, run%system, run%state, status)
+    if (run%plan%damping) call start_damping(run)
+    if (run%plan%damping .and. run%plan%reactions) call start_reactions(run)
     call make_other(run, status)
     call factor_matrix(run, allocated(run%other), status)
     call plan_refinement(run)

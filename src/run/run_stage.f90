@@ -2,6 +2,7 @@
 !> One stage of a step: the right-hand side, the free motion, contact on its interface, the
 !> whole motion, and its correction where the effective matrix is stiff.
 module run_stage
+  use assembly_damping, only: subtract_damping_force
   use assembly_forces, only: add_loads, subtract_internal_force, subtract_layer_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
@@ -12,6 +13,7 @@ module run_stage
   use contact_stage, only: solve_contact, correct_contact
   use linalg_solver, only: solve_whole
   use output_contact, only: write_contact_problem
+  use run_damping, only: subtract_damping
   use run_data, only: run_t
   use run_motion, only: impose_motions, restore_motions, keep_right_side
   use run_static, only: add_shift
@@ -35,6 +37,7 @@ contains
     if (run%plan%loads) call weigh_loads(run, stage, t1)
     call run%scheme%right_side(stage, run%system, run%state, run%b)
     call subtract_forces(run, stage)
+    if (run%plan%damping) call subtract_damping(run, stage)
     if (allocated(run%shift)) call add_shift(run%shift, run%x_pass, run%b)
     call constrain_dofs(run, stage, t1)
     call run%timers%enter(phase_solve)
@@ -99,6 +102,8 @@ contains
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_internal_force(run%system, run%scheme%stage(stage)%c_k, run%x, run%b)
     call subtract_layer_force(run%system, run%scheme%stage(stage)%c_layer, run%x, run%b)
+    if (run%plan%damping) call subtract_damping_force(run%system, &
+        run%scheme%stage(stage)%c_c, run%x, run%b)
     if (allocated(run%shift)) call add_shift(run%shift, -run%x, run%b)
     if (run%plan%contact) call add_interface_forces(run, run%force)
     call add_correction(run)

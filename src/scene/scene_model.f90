@@ -10,6 +10,7 @@ module scene_model
   use model_data, only: model_t
   use scene_contact, only: read_contacts, read_walls
   use scene_controls, only: read_controls, read_solver_options, note_keywords
+  use scene_damping, only: read_damping
   use scene_ids, only: maps_t
   use scene_loads, only: read_curves, read_loads
   use scene_mesh, only: read_nodes, read_elements, check_mesh
@@ -47,6 +48,7 @@ contains
       call read_curves(deck, model, maps)
       call read_supports(deck, model, maps)
       call read_loads(deck, model, maps)
+      call read_damping(deck, model, maps)
       call read_motions(deck, model, maps)
       call read_initial_velocities(deck, model, maps)
       call read_contacts(deck, model, maps)

@@ -4,7 +4,9 @@
 !> U1, V1 by Newmark with gamma = 1/2 - am + af, beta = (gamma + 1/2)^2/4. The contact force
 !> R1 is NOT averaged like the loads: it acts with weight 1, else the schemes gain energy on
 !> impact.
-!> One stage: [k M + (1 - af) K] x = M (k D - am A0) - K U0 + (1 - af) P1 + af P0 + R1 with
+!> C V is averaged like K U.
+!> One stage: [k M + (1 - af) (gamma C/(beta h) + K)] x = M (k D - am A0) - K U0 + (1 - af) P1 +
+!> af P0 - C {[1 - (1 - af) gamma/beta] V0 + (1 - af) h [1 - gamma/(2 beta)] A0} + R1 with
 !> k = (1 - am)/(beta h^2), D = h V0 + h^2 (1/2 - beta) A0. At am = af = 1/2 (rho = 1) it is the
 !> theta-method at theta = xi = 1/2.
 module time_alpha
@@ -58,9 +60,12 @@ contains
   pure subroutine alpha_set_step(this, h)
     class(alpha_t), intent(inout) :: this
     real(wp), intent(in) :: h
+    real(wp) :: rate
     this%h = h
+    rate = (one - this%af)*this%gamma/this%beta
     this%stage = [stage_t(c_m=(one - this%am)/(this%beta*h**2), c_k=one - this%af, &
-        load_weight=[this%af, one - this%af])]
+        load_weight=[this%af, one - this%af], c_c=rate/h, &
+        rate_weight=[one - rate, h*(one - this%af - half*rate)])]
     this%load_work_weight = [this%af, one - this%af]
     this%dissipates = .true.
   end subroutine alpha_set_step
@@ -73,8 +78,8 @@ contains
     type(status_t), intent(inout) :: status
     allocate (this%d(2, system%n), this%a_before(2, system%n))
     this%a_before = zero
-    if (.not. this%starts_in_balance) &
-        call start_acceleration(trim(this%name), model, system, state, status)
+    call start_acceleration(trim(this%name), model, system, this%starts_in_balance, state, &
+        status)
   end subroutine alpha_start
 
   subroutine alpha_right_side(this, stage, system, state, b)

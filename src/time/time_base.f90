@@ -20,9 +20,13 @@ module time_base
 
   !> One solve of a step: A x = b + H' r with A = cM M + cC C + cK K and
   !> b = (inertia, by the scheme) + load_weight(1) P0 + load_weight(2) P1
-  !>     - force_weight K (U0 + force_lead V0).
+  !>     - force_weight K (U0 + force_lead V0) - C (rate_weight(1) V0 + rate_weight(2) A0).
+  !> The damping force that acts in the stage is C (cC x + rate_weight(1) V0 + rate_weight(2)
+  !> A0), counted over the step like the contact force: over rule%factor, with weight_before
+  !> and weight_now of the scheme.
   type, public :: stage_t
     real(wp) :: c_m = zero   !< [1/T2]
+    real(wp) :: c_c = zero       !< on the damping of the deck [1/T]
     real(wp) :: c_layer = zero   !< on the layer of massless nodes
     real(wp) :: c_k = zero
     type(contact_rule_t) :: rule             !< what contact means here
@@ -31,6 +35,7 @@ module time_base
     real(wp) :: force_lead = zero            !< [T]
     logical :: moves = .true.                !< x = U1 - U0, else a change of velocity times h
     logical :: only_in_contact = .false.     !< x is zero where the stage before met no contact
+    real(wp) :: rate_weight(2) = zero        !< [1], [T]
   end type stage_t
 
   type, public :: motion_t
@@ -59,6 +64,8 @@ module time_base
     logical :: adds_reactions = .false.      !< the force of the step is that of both stages
     !> (2, n) x of the last stage without contact, only where it is needed [L]
     real(wp), allocatable :: free(:, :)
+    !> (2, n) that the scheme itself adds to the rate V0 in C of its stage [L/T]
+    real(wp), allocatable :: rate(:, :)
   contains
     procedure :: begin_step => nothing_to_begin
     procedure(set_step_i), deferred :: set_step

@@ -3,7 +3,7 @@
 !> projects the predictor h V0 onto what may be reached, without friction:
 !>   [M/h^2] xp = M V0/h + H' l,  gap at U0 + xp >= 0.
 !> Stage 2 is the mid-point rule from there:
-!>   [2 M/h^2 + K/2] x = 2 M xp/h^2 + (P0 + P1)/2 - K U0 + H' r,
+!>   [2 M/h^2 + C/h + K/2] x = 2 M xp/h^2 + (P0 + P1)/2 - K U0 - C (V0 - xp/h) + H' r,
 !>   U1 = U0 + x, V1 = V0 + 2 (x - xp)/h.
 !> Bodies feel r alone; the energy changes by r.H dU - l.H h dV besides the loads.
 module time_csnewmark
@@ -37,7 +37,8 @@ contains
     this%stage = [ &
         stage_t(c_m=one/h**2, load_weight=[zero, zero], force_weight=zero, moves=.false., &
         rule=contact_rule_t(is_frictionless=.true.)), &
-        stage_t(c_m=2.0_wp/h**2, c_k=half, load_weight=[half, half])]
+        stage_t(c_m=2.0_wp/h**2, c_k=half, load_weight=[half, half], c_c=one/h, &
+        rate_weight=[one, zero])]
     this%load_work_weight = [half, half]
   end subroutine csnewmark_set_step
 
@@ -50,6 +51,7 @@ contains
     integer :: k
     allocate (this%xp(2, system%n), this%stage_work(2))
     this%xp = zero
+    if (allocated(system%damping)) allocate (this%rate(2, system%n), source=zero)
     do k = 1, 2
       allocate (this%stage_work(k)%x(2, system%n))
       this%stage_work(k)%x = zero
@@ -77,6 +79,7 @@ contains
     type(state_t), intent(inout) :: state
     if (stage == 1) then
       this%xp = x
+      if (allocated(this%rate)) this%rate = -x/this%h
     else
       this%stage_work(1)%x = 2.0_wp*(this%xp - x)
       this%stage_work(2)%x = x

@@ -2,8 +2,9 @@
 !> Newmark's method (1959):
 !>   V1 = V0 + h [(1 - gamma) A0 + gamma A1],  U1 = U0 + h V0 + h^2 [(1/2 - beta) A0 + beta A1],
 !> contact force at the end of the step, r1. On impact it gains energy without bound: it is here
-!> to be compared with. One stage: [M/(beta h^2) + K] x = M D/(beta h^2) - K U0 + P1 + R1, D = h
-!> V0 + h^2 (1/2 - beta) A0.
+!> to be compared with. One stage: [M/(beta h^2) + gamma C/(beta h) + K] x = M D/(beta h^2)
+!> - K U0 - C [(1 - gamma/beta) V0 + h (1 - gamma/(2 beta)) A0] + P1 + R1,
+!> D = h V0 + h^2 (1/2 - beta) A0.
 module time_newmark
   use assembly_forces, only: strain_product
   use assembly_system, only: system_t, multiply_mass
@@ -36,14 +37,15 @@ contains
     class(newmark_t), intent(inout) :: this
     real(wp), intent(in) :: h
     this%h = h
-    this%stage = [stage_t(c_m=one/(this%beta*h**2), c_k=one)]
+    this%stage = [stage_t(c_m=one/(this%beta*h**2), c_k=one, c_c=this%gamma/(this%beta*h), &
+        rate_weight=[one - this%gamma/this%beta, h*(one - half*this%gamma/this%beta)])]
     this%weight_before = one - this%gamma
     this%weight_now = this%gamma
     this%load_work_weight = [one - this%gamma, this%gamma]
     this%dissipates = this%gamma > half .or. abs(this%beta - half*this%gamma) > zero
   end subroutine newmark_set_step
 
-  !> A0 from M A0 = P0 - K U0.
+  !> A0 from M A0 = P0 - K U0 - C V0.
   subroutine newmark_start(this, model, system, state, status)
     class(newmark_t), intent(inout) :: this
     type(model_t), intent(in) :: model
@@ -52,8 +54,7 @@ contains
     type(status_t), intent(inout) :: status
     allocate (this%d(2, system%n))
     if (this%dissipates) allocate (this%a_before(2, system%n))
-    if (.not. this%starts_in_balance) &
-        call start_acceleration('NEWMARK', model, system, state, status)
+    call start_acceleration('NEWMARK', model, system, this%starts_in_balance, state, status)
   end subroutine newmark_start
 
   subroutine newmark_right_side(this, stage, system, state, b)

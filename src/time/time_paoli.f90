@@ -2,7 +2,8 @@
 !> The central difference with contact on positions (Paoli & Schatzman 1993), beta = 1/4,
 !> implicit (our choice), or beta = 0, explicit; or with contact on velocities (CD-Lagrange,
 !> Fekak, Brun, Gravouil & Depale 2017), beta = 0. State: U_n and V- = (U_n - U_{n-1})/h.
-!>   [M/h^2 + beta K] x = M V-/h + P_n - K (U_n - beta h V-) + r,  U_{n+1} = U_n + x,  V+ = x/h,
+!>   [M/h^2 + C/(2 h) + beta K] x = M V-/h + P_n - K (U_n - beta h V-) - C V-/2 + r,
+!>   U_{n+1} = U_n + x,  V+ = x/h,  and - C V- alone at beta = 0,
 !> the gap at U_{n+1} + e times that at U_{n-1} is not negative, or v+ + e v- where the gap at
 !> U_n is not positive. At beta = 1/4 two steps of the theta-method at theta = xi = 1/2 with
 !> their mean contact force are one of this: that mean obeys the law of contact, and does not
@@ -54,8 +55,14 @@ contains
     real(wp) :: share
     this%h = h
     share = merge(half, one, this%is_first)
-    this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, &
-        load_weight=[share, zero], force_weight=share, force_lead=-this%beta*h/share)]
+    this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, load_weight=[share, zero], &
+        force_weight=share, force_lead=-this%beta*h/share)]
+    if (this%beta > zero) then
+      this%stage(1)%c_c = half/h
+      this%stage(1)%rate_weight(1) = share - half
+    else    ! A stays diagonal
+      this%stage(1)%rate_weight(1) = share
+    end if
     this%stage(1)%rule = contact_rule_t(level=level_position, factor=share, lead=h)
     if (this%on_velocities) this%stage(1)%rule = contact_rule_t(level=level_velocity, &
         factor=share, now=h, safe_share=one)

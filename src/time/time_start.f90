@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What schemes with accelerations need before their first step.
 module time_start
+  use assembly_damping, only: subtract_damping_force
   use assembly_forces, only: subtract_internal_force, add_loads
   use assembly_system, only: system_t, multiply_mass, effective_matrix, clear_fixed
   use base_kinds, only: wp, zero, one
@@ -20,30 +21,35 @@ module time_start
 
 contains
 
-  !> A0 [L/T2] into state%a from M A0 = P0 - K U0 at the time of the state. Where the mass is
-  !> singular the acceleration is zero, if the right side allows it; else it fails, naming the
-  !> scheme.
-  subroutine start_acceleration(name, model, system, state, status)
+  !> A0 [L/T2] into state%a from M A0 = P0 - K U0 - C V0 at the time of the state; in balance
+  !> (after a static phase) the damping alone is left. Where the mass is singular the
+  !> acceleration is zero, if the right side allows it; else it fails, naming the scheme.
+  subroutine start_acceleration(name, model, system, in_balance, state, status)
     character(*), intent(in) :: name
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
+    logical, intent(in) :: in_balance
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
     type(ldlt_t) :: solver
     type(block_matrix_t) :: matrix
     real(wp), allocatable :: f(:, :), a(:, :)
     real(wp) :: size_f
+    if (in_balance .and. .not. allocated(system%damping)) return
     allocate (f(2, system%n))
     f = zero
-    call give_accelerations(model, state%time, state%a)
-    call multiply_mass(system, -one, state%a, f)
-    call add_loads(model, system, state%time, one, f)
-    call subtract_internal_force(system, one, state%u, f)
+    if (.not. in_balance) then
+      call give_accelerations(model, state%time, state%a)
+      call multiply_mass(system, -one, state%a, f)
+      call add_loads(model, system, state%time, one, f)
+      call subtract_internal_force(system, one, state%u, f)
+    end if
+    if (allocated(system%damping)) call subtract_damping_force(system, one, state%v, f)
     call clear_fixed(system, f)
     size_f = maxval(abs(f))
     if (.not. size_f > zero) return
     solver%options%null_pivot = null_pivot
-    call effective_matrix(system, one, zero, zero, matrix)
+    call effective_matrix(system, one, zero, zero, zero, matrix)
     call solver%analyse(system%graph, [integer ::], status)
     call solver%factor(system%graph, matrix, status)
     if (failed(status)) return

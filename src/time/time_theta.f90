@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The first-order theta-method without accelerations (Jean 1999):
 !>   U1 - U0 = h [(1 - theta) V0 + theta V1]
-!> M (V1 - V0) = h [(1 - xi) F0 + xi F1] + h R1,  F = P - K U,  the reactions R fully implicit.
-!> One stage: [M/(theta h^2) + xi K] x = M V0/(theta h) + (1 - xi) P0 + xi P1 - K U0 + R1. A
+!> M (V1 - V0) = h [(1 - xi) F0 + xi F1] + h R1,  F = P - K U - C V,  R fully implicit.
+!> One stage: [M/(theta h^2) + xi C/(theta h) + xi K] x = M V0/(theta h) + (1 - xi) P0 + xi P1
+!> - K U0 - (1 - xi/theta) C V0 + R1. A
 !> massless node has no inertia: at xi = 1/2 the force that is left on it when contact ends
 !> would change sign at every step for ever (F1 = -F0). The elements that hold such nodes
 !> therefore get xi = 1/2 + layer_damping: the force left dies out within some 25 steps, and the
@@ -52,6 +53,8 @@ contains
         safe_share=merge((one - this%theta)/this%theta, zero, this%is_safe))
     if (.not. this%xi > half) this%stage(1)%c_layer = layer_damping
     this%stage(1)%load_weight = [one - this%xi, this%xi]
+    this%stage(1)%c_c = this%xi/(this%theta*h)
+    this%stage(1)%rate_weight = [one - this%xi/this%theta, zero]
     this%load_work_weight = this%stage(1)%load_weight
     this%dissipates = this%dissipates .or. this%theta > half .or. this%xi > half
   end subroutine theta_set_step

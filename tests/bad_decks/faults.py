@@ -14,6 +14,7 @@ BASES = {name: open(os.path.join(HERE, name + ".k")).read() for name in ("base",
 NODE = "       2             1.0             0.0"
 ELEMENT = "       1       1       1       2       3       4"
 MATERIAL = "         1     0.001    1000.0       0.3"
+CURVE = "*DEFINE_CURVE\n1,\n0.0,1.0\n0.1,1.0\n"
 EXPRESSION = "*PARAMETER_EXPRESSION\n"
 PARAMETER = "Rtend           0.01Rdt            1e-03"
 BASE_FAULTS = [
@@ -166,6 +167,28 @@ BASE_FAULTS = [
         "mass scaling",
         "*END",
         "*CONTROL_TIMESTEP\n       0.0       0.9         0       0.0   -1.0e-6\n*END",
+    ),
+    # damping
+    ("damping by a fraction", "*END", "*DAMPING_PART_STIFFNESS\n         1       0.1\n*END"),
+    ("damping of no part", "*END", "*DAMPING_PART_STIFFNESS\n         7      -0.1\n*END"),
+    ("damping of no part set", "*END", "*DAMPING_PART_STIFFNESS_SET\n         7      -0.1\n*END"),
+    ("damping by no curve", "*END", "*DAMPING_PART_MASS\n         1         7\n*END"),
+    ("damping with scales", "*END", CURVE + "*DAMPING_PART_MASS\n1,1,1.0,1\n*END"),
+    ("damping below zero", "*END", "*DAMPING_GLOBAL\n         0      -1.0\n*END"),
+    (
+        "damping by a curve below zero",
+        "*END",
+        CURVE.replace("0.1,1.0", "0.1,-1.0") + "*DAMPING_GLOBAL\n         1\n*END",
+    ),
+    (
+        "damping of a part and of all",
+        "*END",
+        CURVE + "*DAMPING_GLOBAL\n         1\n*DAMPING_PART_MASS\n         1         1\n*END",
+    ),
+    (
+        "damping of a part twice",
+        "*END",
+        "*DAMPING_PART_STIFFNESS\n         1      -0.1\n         1      -0.2\n*END",
     ),
     ("friction of all contacts", "*END", "*CONTROL_CONTACT\n\n\n       0.3\n*END"),
     ("scheme", "     THETA       0.5", "      TETA       0.5"),

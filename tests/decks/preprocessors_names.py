@@ -89,7 +89,7 @@ def names():
             "in a skipped keyword",
             cards("DATABASE_ABSTAT", fixed(0.1), " *BOUNDARY_SPC_SET", fixed(1, None, 1)),
         ),
-        ("in one that is not available", cards("DAMPING_GLOBAL", fixed(0.1), "   *NODE")),
+        ("in one that is not available", cards("DAMPING_RELATIVE", fixed(0.1), "   *NODE")),
         ("after a title in an include", "*INCLUDE\nt.k"),
     ):
         refused(

@@ -51,11 +51,23 @@ def scene(name):
         make_scenes.write(path, "sliding", n=3, tend=0.1, courant=2.0)
     elif name == "pushed":
         make_scenes.write(path, "pushed", n=3, tend=0.4, courant=8.0)
+    elif name.startswith("damped"):
+        scheme = "NEWMARK" if name == "damped-newmark" else "THETA"
+        make_bars.write(path, scheme=scheme, mu=0.2, slide=0.2, **bars)
+        with open(path) as file:
+            return with_cards(file.read(), DAMPING)
     with open(path) as file:
         return file.read()
 
 
-SCENES = "smooth friction massless newmark lumped asleep wall block pushed".split()
+# A coefficient that changes in every step until the bars touch, then stands; K of one bar.
+DAMPING = (
+    "*DEFINE_CURVE\n77,\n0.0,0.0\n0.01,20.0\n0.02,20.0\n1.0,30.0\n"
+    "*DAMPING_PART_MASS\n1,77,2.0\n*DAMPING_PART_STIFFNESS\n2,-1e-4\n"
+)
+SCENES = (
+    "smooth friction massless newmark lumped asleep wall block pushed damped damped-newmark".split()
+)
 
 
 def with_cards(text, cards):
@@ -72,10 +84,12 @@ def steps_of(folder):
 
 def contents(folder):
     """All that must be equal: bytes of the tables but TIMING, frames of the fields, warnings of
-    a log with their counts."""
+    a log with their counts, the number of factorisations."""
     out = {}
     with open(os.path.join(folder, "bipact.log")) as log:
-        out["warnings"] = re.findall(r"(?m)^(?:WARNING|  \d+ x) .*", log.read())
+        text = log.read()
+    out["warnings"] = re.findall(r"(?m)^(?:WARNING|  \d+ x) .*", text)
+    out["factors"] = re.findall(r"(?m)^factorisations \d+", text)
     for path in glob.glob(os.path.join(folder, "*.tab")):
         if not path.endswith("timing.tab"):
             with open(path, "rb") as file:

@@ -277,12 +277,8 @@ add(
 add(
     "filled: automatic steps", "refused", filled, more=("CONTROL_IMPLICIT_AUTO", [{"iauto": 1}])
 )
-add(
-    "filled: damping",
-    "refused",
-    filled,
-    more=[("DAMPING_GLOBAL", [{"valdmp": 10.0}]), ("CONTROL_DYNAMIC_RELAXATION", [{}])],
-)
+add("filled: damping", "runs", filled, more=("DAMPING_GLOBAL", [{"valdmp": 10.0}]))
+add("filled: dynamic relaxation", "refused", filled, more=("CONTROL_DYNAMIC_RELAXATION", [{}]))
 
 # 3. Components and their names.
 add(

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Products with a part of the effective matrix equal those with the whole one, digit for digit.
 program test_part
+  use assembly_damping, only: subtract_damping_force
   use assembly_forces, only: subtract_internal_force, subtract_layer_force
   use assembly_part, only: part_t, rows_of_nodes, columns_of_nodes, subtract_part
   use assembly_system, only: system_t, multiply_mass
@@ -11,7 +12,8 @@ program test_part
   use run_data, only: run_t
   use run_setup, only: read_scene, set_up
   implicit none
-  real(wp), parameter :: c_m = 3.7e3_wp, c_layer = 0.013_wp, c_k = 0.51_wp
+  real(wp), parameter :: c_m = 3.7e3_wp, c_c = 29.0_wp, c_layer = 0.013_wp, &
+      c_k = 0.51_wp
   integer :: k
 
   call test_start('part')
@@ -23,10 +25,11 @@ program test_part
 
 contains
 
-  !> Few nodes, many nodes, all nodes; is_damped, is_lumped: what the scene is here for.
-  subroutine test_scene(deck, is_damped, is_lumped)
+  !> Few nodes, many nodes, all nodes; what the scene is here for: a layer of massless nodes, or
+  !> a lumped mass with damping by the mass and by the stiffness.
+  subroutine test_scene(deck, has_layer, is_lumped)
     character(*), intent(in) :: deck
-    logical, intent(in) :: is_damped, is_lumped
+    logical, intent(in) :: has_layer, is_lumped
     type(run_t) :: run
     type(override_t) :: overrides(0)
     type(status_t) :: status
@@ -34,7 +37,8 @@ contains
     call read_scene(deck, overrides, run, status)
     call set_up(run, status)
     call check_true(.not. failed(status), deck//' is set up')
-    call check_true(size(run%system%massless_layer) > 0 .eqv. is_damped, deck//': C')
+    call check_true(size(run%system%massless_layer) > 0 .eqv. has_layer, deck//': the layer')
+    call check_true(allocated(run%system%damping) .eqv. is_lumped, deck//': damping')
     call check_true(run%system%mass_is_diagonal .eqv. is_lumped, deck//': a diagonal mass')
     wrong = 0
     do k = 1, 50
@@ -59,7 +63,7 @@ contains
     whole = b
     call subtract_whole(system, x, whole)
     call rows_of_nodes(system, marked, part)
-    call subtract_part(system, part, c_m, c_layer, c_k, x, b)
+    call subtract_part(system, part, c_m, c_c, c_layer, c_k, x, b)
     differences = 0
     do i = 1, system%n
       if (marked(i)) differences = differences + count(abs(b(:, i) - whole(:, i)) > zero)
@@ -69,7 +73,7 @@ contains
     whole = b
     call subtract_whole(system, x, whole)
     call columns_of_nodes(system, marked, part)
-    call subtract_part(system, part, c_m, c_layer, c_k, x, b)
+    call subtract_part(system, part, c_m, c_c, c_layer, c_k, x, b)
     differences = differences + count(abs(b - whole) > zero)
   end function differences
 
@@ -81,6 +85,7 @@ contains
     call multiply_mass(system, -c_m, x, b)
     call subtract_internal_force(system, c_k, x, b)
     call subtract_layer_force(system, c_layer, x, b)
+    if (allocated(system%damping)) call subtract_damping_force(system, c_c, x, b)
   end subroutine subtract_whole
 
 end program test_part
