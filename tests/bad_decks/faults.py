@@ -201,6 +201,7 @@ BASE_FAULTS = [
         "     THETA       0.5       0.5       0.8",
     ),
     ("restitution of a pair", "*END", "*BIPACT_PAIR\n         1,,,,0.5\n*END"),
+    ("damping of nsgenalpha", "     THETA       0.5", "NSGENALPHA", "*END", "*DAMPING_PART_MASS\n1,1,2.0\n*DEFINE_CURVE\n1,\n0.0,1.0\n9.0,1.0\n*END"),
     ("rule of paoli", "     THETA       0.5", "     PAOLI,,,,,PLAIN"),
     ("restitution out of range", "     THETA       0.5", "    MOREAU,,,1.5"),
     (
