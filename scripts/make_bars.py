@@ -59,6 +59,7 @@ DEFAULTS = dict(
     xi=None,
     alpha=-0.3,
     rho=0.8,
+    pbeta=0.25,
     mass="CONSISTENT",
     redist=0,
     angle=0.0,
@@ -403,12 +404,14 @@ def control_lines(o):
         *((0.5, 0.25) if newmark else ()),
         *((None,) * 6 + (float(o.alpha),) if o.scheme == "HHT" else ())
     )
+    explicit = o.scheme == "PAOLI" and o.pbeta == 0.0
     out += block(
         "*BIPACT_TIME",
-        "scheme theta xi rest rhoinf",
+        "scheme theta xi rest rhoinf" + (" rule pbeta" if explicit else ""),
         o.scheme,
         *((float(o.theta), None if o.xi is None else float(o.xi)) if theta else ()),
-        *((None, None, None, float(o.rho)) if genalpha else ())
+        *((None, None, None, float(o.rho)) if genalpha else ()),
+        *((None,) * 5 + (0.0,) if explicit else ())
     )
     out += block("*BIPACT_MASS", "type redist courant", o.mass, o.redist or None)
     if o.ledger_every is not None:
@@ -685,6 +688,7 @@ def add_time_options(add):
     )
     add("--alpha", type=float, help="of HHT (-0.3)")
     add("--rho", type=float, help="of GENALPHA (0.8)")
+    add("--pbeta", type=float, choices=(0.0, 0.25), help="of PAOLI; 0: explicit (0.25)")
     add("--theta", type=float, help="(0.5)")
     add("--xi", type=float, help="(theta)")
     add(

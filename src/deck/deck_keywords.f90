@@ -73,11 +73,13 @@ contains
         'change of the energy ratio in per cent that fails the run; 0 = off')
     call add_field(table, 'ENDMAS', 'R10 note =1.0E8 0=d', 'of mass scaling')
     call add_field(table, 'NOSOL', 'I10 fixed')
-    call add_keyword(table, 'CONTROL_IMPLICIT_GENERAL', 'implicit integration and its step', &
+    call add_keyword(table, 'CONTROL_IMPLICIT_GENERAL', 'the time step', &
         required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'IMFLAG', 'I10 req >=0', '1 = implicit; nothing else is available')
-    call add_field(table, 'DT0', 'R10 req [T] >0', 'time step')
+    call add_field(table, 'IMFLAG', 'I10 =0 >=0', '1 = implicit; 0 = explicit: PBETA 0 of'// &
+        ' *BIPACT_TIME, which may have 1 as well')
+    call add_field(table, 'DT0', 'R10 =0.0 [T] >=0', &
+        'time step; 0 = by TSSFAC of *CONTROL_TIMESTEP, explicit runs only')
     call add_field(table, 'IMFORM', 'I10 note =2 0=d', 'of springback')
     call add_field(table, 'NSBS', 'I10 fixed =1 0=d', 'steps of springback')
     call add_field(table, 'IGS', 'I10 fixed =2 0=d', '2 = without geometric stiffness')

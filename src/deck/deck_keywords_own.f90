@@ -29,7 +29,8 @@ contains
     call add_field(table, 'RHOINF', 'R10 >=0 <=1', &
         'spectral radius at infinite frequency, of GENALPHA; blank = 0.8')
     call add_field(table, 'RULE', 'W10 fixed')
-    call add_field(table, 'PBETA', 'R10 fixed =0.25', 'beta of PAOLI')
+    call add_field(table, 'PBETA', 'R10 >=0 <=0.25', &
+        'beta of PAOLI: 0.25, implicit, or 0, explicit; blank = 0.25')
     call add_keyword(table, 'BIPACT_STATIC', 'statics of bodies held by contact alone', &
         required=1, once=.true.)
     call add_card(table)

@@ -200,15 +200,16 @@ contains
 
   subroutine add_control_timestep(table)
     type(table_t), intent(inout) :: table
-    call add_keyword(table, 'CONTROL_TIMESTEP', 'it concerns explicit steps; mass scaling '// &
-        '(DT2MS) must be blank', required=1, noted=.true.)
+    call add_keyword(table, 'CONTROL_TIMESTEP', &
+        'the step of explicit runs; of others it has no effect', required=1)
     call add_card(table)
     call add_field(table, 'DTINIT', 'R10 ignored')
-    call add_field(table, 'TSSFAC', 'R10 ignored')
+    call add_field(table, 'TSSFAC', 'R10 =0.9 0=d', &
+        'explicit runs with a blank DT0: share of the limit of the elements, at most 1')
     call add_field(table, 'ISDO', 'I10 ignored')
     call add_field(table, 'TSLIMT', 'R10 fixed', 'moduli are never changed')
     call add_field(table, 'DT2MS', 'R10 fixed', 'masses are never changed')
-    call add_field(table, 'LCTM', 'I10 ignored', 'limits explicit steps')
+    call add_field(table, 'LCTM', 'I10 ignored', 'explicit runs: blank; steps are equal')
     call add_field(table, 'ERODE', 'I10 fixed', 'elements are never deleted')
     call add_field(table, 'MS1ST', 'I10 ignored', 'of mass scaling')
     call add_card(table)

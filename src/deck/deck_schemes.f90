@@ -12,8 +12,11 @@ module deck_schemes
     logical :: takes_gamma = .false.       !< GAMMA and BETA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_alpha = .false.       !< ALPHA of *CONTROL_IMPLICIT_DYNAMICS
     logical :: takes_rho = .false.         !< RHOINF
+    logical :: takes_pbeta = .false.       !< PBETA: 1/4, or 0, which is explicit
     logical :: takes_redist = .true.       !< massless contact nodes
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
+    !> Whatever its fields say: lumped masses alone in the effective matrix, and a largest step.
+    logical :: is_explicit = .false.
   end type scheme_traits_t
 
   type(scheme_traits_t), parameter, public :: schemes(5) = [ &
@@ -21,7 +24,7 @@ module deck_schemes
       scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.), &
       scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &
       scheme_traits_t('GENALPHA', takes_rho=.true., has_acceleration=.true.), &
-      scheme_traits_t('PAOLI', takes_redist=.false.)]
+      scheme_traits_t('PAOLI', takes_pbeta=.true., takes_redist=.false.)]
 
   public :: traits_of
 

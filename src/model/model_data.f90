@@ -147,6 +147,10 @@ module model_data
     real(wp) :: beta = 0.25_wp
     real(wp) :: alpha = 0.0_wp          !< of HHT
     real(wp) :: rho = 0.8_wp            !< of GENALPHA
+    real(wp) :: pbeta = 0.25_wp         !< of PAOLI
+    logical :: is_explicit = .false.    !< lumped masses alone in the effective matrix
+    real(wp) :: step_limit = huge(1.0_wp)   !< of an explicit scheme [T]
+    integer :: limit_element = 0        !< id of the element that sets it
     logical :: is_static = .false.
     real(wp) :: static_until = 0.0_wp   !< end of a static phase before dynamics [T]
     real(wp) :: static_shift = 1.0e-3_wp, static_residual = 1.0e-10_wp

@@ -2,7 +2,8 @@
 !> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
 module run_setup
   use assembly_bending, only: make_bending
-  use assembly_system, only: make_system, effective_matrix, stiffness_ratio
+  use assembly_system, only: make_system, effective_matrix, diagonal_matrix, &
+      stiffness_ratio
   use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, add_place, status_numerical
@@ -14,7 +15,8 @@ module run_setup
   use deck_parameter, only: override_t
   use deck_reader, only: read_deck
   use base_strings, only: to_text
-  use linalg_registry, only: make_solver
+  use linalg_registry, only: make_solver, engine_diagonal
+  use linalg_solver, only: solver_options_t
   use model_data, only: controls_t
   use model_state, only: make_state
   use run_data, only: run_t
@@ -92,7 +94,7 @@ contains
         'the initial energy is not finite (NaN or Inf)', &
         hint='check units and initial velocities')
     if (failed(status)) return
-    call make_solver(run%solver_options, run%solver, status)
+    call make_engine(run, status)
     if (failed(status)) return
     allocate (run%b(2, run%system%n), run%x(2, run%system%n))
     run%x = zero
@@ -107,6 +109,25 @@ contains
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
+
+  !> The linear solver that the deck asks for, or that of diagonal matrices for one.
+  subroutine make_engine(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    type(solver_options_t) :: options
+    options = run%solver_options
+    if (has_diagonal_matrix(run)) options%engine = engine_diagonal
+    call make_solver(options, run%solver, status)
+  end subroutine make_engine
+
+  !> Is the effective matrix lumped masses alone?
+  pure logical function has_diagonal_matrix(run)
+    type(run_t), intent(in) :: run
+    associate (stage => run%scheme%stage(1))
+      has_diagonal_matrix = run%system%mass_is_diagonal .and. &
+          .not. (abs(stage%c_k) > zero .or. abs(stage%c_layer) > zero)
+    end associate
+  end function has_diagonal_matrix
 
   !> Steps of the static phase: all, those up to TDYBIR, or none.
   pure integer function static_steps(controls, steps)
@@ -138,6 +159,10 @@ contains
     run%plan%refinement = run%plan%refined_from < run%plan%full_steps + &
         merge(1, 0, run%plan%last_step > zero)
     if (allocated(run%correction)) return
+    if (run%solver%takes_diagonal) then
+      call add_feature(run%plan, 'refinement', .false., 'the effective matrix is diagonal')
+      return
+    end if
     call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
         to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio)// &
         '; after '//to_text(run%plan%refined_from)//' steps, when the drift may pass '// &
@@ -180,7 +205,11 @@ contains
     if (failed(status)) return
     call run%timers%enter(phase_factor)
     associate (stage => run%scheme%stage(1))
-      call effective_matrix(run%system, stage%c_m, stage%c_layer, stage%c_k, run%matrix)
+      if (run%solver%takes_diagonal) then
+        call diagonal_matrix(run%system, stage%c_m, run%matrix)
+      else
+        call effective_matrix(run%system, stage%c_m, stage%c_layer, stage%c_k, run%matrix)
+      end if
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     m = size(run%contact%interface_node)
@@ -216,13 +245,16 @@ contains
   subroutine start_dynamics(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
+    logical :: again
     call make_scheme(run%model%controls, .false., run%scheme, status)
     if (run%plan%contact) call set_contact_rule(run)
     if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
     run%state%v = run%model%v0
     run%scheme%starts_in_balance = .true.
     call run%scheme%start(run%model, run%system, run%state, status)
-    call factor_matrix(run, .false., status)
+    again = has_diagonal_matrix(run) .neqv. run%solver%takes_diagonal
+    if (again) call make_engine(run, status)
+    call factor_matrix(run, again, status)
     call plan_refinement(run)
   end subroutine start_dynamics
 

@@ -1,12 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> PAOLI: the central difference with contact on positions (Paoli & Schatzman 1993), with
-!> beta = 1/4, implicit (our choice). State: U_n and V- = (U_n - U_{n-1})/h.
+!> PAOLI: the central difference with contact on positions (Paoli & Schatzman 1993), explicit
+!> with beta = 0, or with beta = 1/4, implicit (our choice). State: U_n and
+!> V- = (U_n - U_{n-1})/h.
 !>   [M/h^2 + beta K] x = M V-/h + P_n - K (U_n - beta h V-) + r,  U_{n+1} = U_n + x,  V+ = x/h,
-!> the gap at U_{n+1} is not negative. Two steps of the theta-method at theta = xi = 1/2 with
-!> their mean contact force are one of this: that mean obeys the law of contact, and does not
-!> alternate. In the first step V- is V0 and half the forces act. Forces do work on
-!> w = h (V- + V+)/2; the energy V+.M V+/2 + Um.K Um/2 + (beta - 1/4) x.K x/2, Um = U_n + x/2,
-!> changes by it alone.
+!> the gap at U_{n+1} is not negative. With beta = 1/4, two steps of the theta-method at
+!> theta = xi = 1/2 with their mean contact force are one of this: that mean obeys the law of
+!> contact, and does not alternate. In the first step V- is V0 and half the forces act. Forces
+!> do work on w = h (V- + V+)/2; the energy V+.M V+/2 + Um.K Um/2 + (beta - 1/4) x.K x/2,
+!> Um = U_n + x/2, changes by it alone.
 module time_paoli
   use assembly_forces, only: subtract_internal_force
   use assembly_system, only: system_t, multiply_mass

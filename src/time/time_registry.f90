@@ -41,7 +41,7 @@ contains
     case ('GENALPHA')
       allocate (scheme, source=generalised_alpha(controls%rho))
     case ('PAOLI')
-      allocate (paoli_t :: scheme)
+      allocate (scheme, source=paoli_t(beta=controls%pbeta))
     case default
       call fail(status, status_deck, 'time scheme "'//trim(controls%scheme)// &
           '" is not available')

@@ -43,6 +43,8 @@ def scene(name):
         make_bars.write(path, scheme="NEWMARK", mu=0.2, slide=0.2, **bars)
     elif name == "lumped":
         make_bars.write(path, mass="LUMPED", **bars)
+    elif name == "explicit":
+        make_bars.write(path, scheme="PAOLI", pbeta=0.0, mass="LUMPED", mu=0.3, slide=0.3, **bars)
     elif name == "asleep":
         make_bars.write(path, **dict(bars, touch=100.5))
     elif name == "wall":
@@ -55,7 +57,7 @@ def scene(name):
         return file.read()
 
 
-SCENES = "smooth friction massless newmark lumped asleep wall block pushed".split()
+SCENES = "smooth friction massless newmark lumped explicit asleep wall block pushed".split()
 
 
 def with_cards(text, cards):
