@@ -19,6 +19,7 @@ contains
   subroutine fill_table(table)
     type(table_t), intent(inout) :: table
     call add_frame(table)
+    call add_control_timestep(table)
     call add_mesh_keywords(table)
     call add_load_keywords(table)
     call add_contact_keywords(table)
@@ -150,5 +151,36 @@ contains
     character(*), intent(in) :: name, spec
     call add_field(table, name, spec, 'of nonlinear solves')
   end subroutine add_nonlinear
+
+  !> The step of explicit runs; fields of mass scaling must be blank.
+  subroutine add_control_timestep(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'CONTROL_TIMESTEP', &
+        'the step of explicit runs; of others it has no effect', required=1)
+    call add_card(table)
+    call add_field(table, 'DTINIT', 'R10 ignored')
+    call add_field(table, 'TSSFAC', 'R10 =0.9 0=d', &
+        'explicit runs with a blank DT0: share of the limit of the elements, at most 1')
+    call add_field(table, 'ISDO', 'I10 ignored')
+    call add_field(table, 'TSLIMT', 'R10 fixed', 'moduli are never changed')
+    call add_field(table, 'DT2MS', 'R10 fixed', 'masses are never changed')
+    call add_field(table, 'LCTM', 'I10 ignored', 'explicit runs: blank; steps are equal')
+    call add_field(table, 'ERODE', 'I10 fixed', 'elements are never deleted')
+    call add_field(table, 'MS1ST', 'I10 ignored', 'of mass scaling')
+    call add_card(table)
+    call add_field(table, 'DT2MSF', 'R10 fixed', 'masses are never changed')
+    call add_field(table, 'DT2MSLC', 'I10 fixed', 'masses are never changed')
+    call add_field(table, 'IMSCL', 'I10 fixed', 'masses are never changed')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, 'RMSCL', 'R10 fixed', 'masses are never changed')
+    call add_field(table, 'EMSCL', 'R10 fixed', 'masses are never changed')
+    call add_field(table, '-', 'R10 ignored')
+    call add_card(table)
+    do k = 1, 8
+      call add_field(table, '-', 'R10 ignored')
+    end do
+  end subroutine add_control_timestep
 
 end module deck_keywords
