@@ -182,6 +182,51 @@ def static_start():
     check(code == 0, "static start with SKYLINE: " + errors)
 
 
+def ledger():
+    """The block of every keyword with friction, loads, motions, walls, reactions: its ledger; with
+    DT0 blank and with contact interfaces of many nodes."""
+    with open(os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")) as file:
+        text = file.read()
+    deck = re.sub(r"(?m)^ *&scheme$", EXPLICIT, text)
+    deck = re.sub(r"(?m)^ *LDLT( *AUTO)$", r"  DIAGONAL\1", deck)
+    deck = deck.replace("         1       &dt", "         0")
+    check(deck.count("PAOLI,") == deck.count("DIAGONAL") == 1, "the deck is explicit")
+    folder, code, errors = run_text("every", deck)
+    check(code == 0, "every keyword: exit code %d: %s" % (code, errors))
+    rows = table(folder, "glstat")
+    for column in ("external", "motion", "friction"):
+        check(np.abs(rows[column]).max() > 0.0, "every keyword: there is work: " + column)
+    at_most(np.abs(rows["residual"]).max(), LEDGER, "every keyword: ledger")
+
+
+def restart():
+    """A run with DT0 blank goes on from its restart files digit for digit; to another ENDTIM, which
+    would make another step, it is refused with what to do."""
+    scene = thrown_block(5, 0.3)
+    scene.dt, scene.steps = 1.0e-4, 400
+    cards = "*BIPACT_RESTART\n100,,99\n*END"
+    text = GENERAL.sub("*CONTROL_IMPLICIT_GENERAL\n0,\n", scene.text()).replace("*END", cards)
+    folder, code, errors = run_text("whole", text)
+    check(code == 0, "restart: " + errors)
+    deck = os.path.join(scenes.TMP, "whole.k")
+    whole = {t: open(os.path.join(folder, t + ".tab")).read() for t in ("glstat", "rwforc")}
+    files = sorted(f for f in os.listdir(folder) if f.startswith("restart."))
+    check(len(files) > 4, "restart: %d files" % len(files))
+    for name in files[::-1]:
+        path = os.path.join(folder, name)
+        code, errors, _ = scenes.bipact(deck, folder, "--quiet", "--restart", path)
+        check(code == 0, "restart from %s: %s" % (name, errors))
+        for tab, rows in whole.items():
+            same = open(os.path.join(folder, tab + ".tab")).read() == rows
+            check(same, "restart from %s: another %s" % (name, tab))
+    _, code, errors = run_text("longer", text.replace("%r,\n" % (scene.dt * scene.steps), "0.0431,\n"))
+    check(code == 0, "longer: " + errors)
+    code, errors, _ = scenes.bipact(
+        os.path.join(scenes.TMP, "longer.k"), folder, "--quiet", "--restart", "latest"
+    )
+    check(code == 3 and "with DT0 given" in errors, "restart to a later end: %d %s" % (code, errors))
+
+
 if __name__ == "__main__":
     globals()[sys.argv[1]]()
     finish()
