@@ -97,9 +97,15 @@ def scenes():
 
 def instructions(program, text, steps, folder):
     """Instructions of a run of that many steps, by callgrind."""
-    deck, out = os.path.join(folder, "one.k"), os.path.join(folder, "callgrind")
+    deck = os.path.join(folder, "one.k")
     with open(deck, "w") as file:
         file.write(set_end(text, steps))
+    return instructions_of(program, deck, folder)
+
+
+def instructions_of(program, deck, folder):
+    """Instructions of a run of a deck."""
+    out = os.path.join(folder, "callgrind")
     subprocess.run(
         [
             "valgrind",

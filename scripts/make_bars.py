@@ -71,6 +71,7 @@ DEFAULTS = dict(
     alpha=-0.3,
     rho=0.8,
     setting={},
+    pbeta=0.25,
     mass="CONSISTENT",
     redist=0,
     angle=0.0,
@@ -400,6 +401,7 @@ def scheme_setting(o):
         "NEWMARK": {"gamma": 0.5, "beta": 0.25},
         "HHT": {"alpha": float(o.alpha)},
         "GENALPHA": {"rhoinf": float(o.rho)},
+        "PAOLI": {"pbeta": 0.0 if o.pbeta == 0.0 else None},
     }
     return dict(own.get(o.scheme, {}), **o.setting)
 
@@ -708,6 +710,7 @@ def add_time_options(add):
     )
     add("--alpha", type=float, help="of HHT (-0.3)")
     add("--rho", type=float, help="of GENALPHA (0.8)")
+    add("--pbeta", type=float, choices=(0.0, 0.25), help="of PAOLI; 0: explicit (0.25)")
     add("--theta", type=float, help="(0.5)")
     add(
         "--setting",

@@ -34,6 +34,7 @@ SCENE = (
         ("CONTROL_IMPLICIT_GENERAL", [{"IMFLAG": 1, "DT0": "&dt"}]),
         ("CONTROL_IMPLICIT_DYNAMICS", [{"IMASS": 1, "GAMMA": 0.5, "BETA": 0.25}]),
         ("CONTROL_IMPLICIT_SOLUTION", [{"NSOLVR": 1}]),
+        ("CONTROL_TIMESTEP", [{"TSSFAC": 0.9}]),
         ("BIPACT_TIME", [{"SCHEME": "&scheme"}]),
         ("BIPACT_STATIC", [{"SHIFT": "1.0E-3", "MAXPASS": 60}]),
         ("BIPACT_MASS", [{"TYPE": "LUMPED", "REDIST": 0}]),

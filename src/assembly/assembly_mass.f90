@@ -23,13 +23,20 @@ contains
     class(element_t), intent(in) :: element
     integer, intent(in) :: e
     real(wp), intent(out) :: me(4, 4)
-    real(wp) :: x(2, element%nodes), nu(2), a(2), density
+    real(wp) :: x(2, element%nodes), nu(2), a(2), density, lumped(element%nodes)
     integer :: k, n
     n = element%nodes
     me = zero
     associate (part => model%part(model%element_part(e)), controls => model%controls)
       x = model%x(:, model%connectivity(1:n, e))
       density = model%material(part%material)%item%density
+      if (controls%mass == 'LUMPED') then
+        lumped = element%lumped_mass(x, density, part%thickness)
+        do k = 1, n
+          me(k, k) = lumped(k)
+        end do
+        return
+      end if
       a = one/sqrt(3.0_wp)
       if (controls%mass == 'DISPERSION') then
         nu = controls%courant
@@ -40,14 +47,6 @@ contains
       end if
       call element%mass(x, density, part%thickness, a, me(1:n, 1:n))
     end associate
-    if (model%controls%mass /= 'LUMPED') return
-    do k = 1, n
-      me(k, k) = sum(me(:, k))
-    end do
-    do k = 1, n
-      me(k + 1:, k) = zero
-      me(:k - 1, k) = zero
-    end do
   end subroutine element_mass
 
   !> M* = T' M T, each element with the weight of its part: the rows and columns of a massless

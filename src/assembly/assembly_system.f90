@@ -45,8 +45,8 @@ module assembly_system
     integer, allocatable :: fixed_list(:, :)
   end type system_t
 
-  public :: make_system, effective_matrix, multiply_mass, add_mass_rows, constrain, &
-      clear_fixed, set_fixed, list_dofs, stiffness_ratio
+  public :: make_system, effective_matrix, diagonal_matrix, multiply_mass, add_mass_rows, &
+      constrain, clear_fixed, set_fixed, list_dofs, stiffness_ratio
 
 contains
 
@@ -228,6 +228,18 @@ contains
       end do
     end associate
   end subroutine add_damping
+  !> A = cM M of a diagonal mass; fixed dofs as in EFFECTIVE_MATRIX.
+  pure subroutine diagonal_matrix(system, c_m, matrix)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: c_m
+    type(block_matrix_t), intent(inout) :: matrix
+    integer :: i
+    if (allocated(matrix%value)) deallocate (matrix%value)
+    if (.not. allocated(matrix%diagonal)) allocate (matrix%diagonal(2, system%n))
+    do i = 1, system%n
+      matrix%diagonal(:, i) = c_m*system%lumped(i)
+    end do
+  end subroutine diagonal_matrix
 
   pure subroutine clear_block(row, column, diagonal, block)
     logical, intent(in) :: row(2), column(2), diagonal

@@ -19,6 +19,7 @@ contains
   subroutine fill_table(table)
     type(table_t), intent(inout) :: table
     call add_frame(table)
+    call add_control_timestep(table)
     call add_mesh_keywords(table)
     call add_load_keywords(table)
     call add_contact_keywords(table)
@@ -73,11 +74,13 @@ contains
         'change of the energy ratio in per cent that fails the run; 0 = off')
     call add_field(table, 'ENDMAS', 'R10 note =1.0E8 0=d', 'of mass scaling')
     call add_field(table, 'NOSOL', 'I10 fixed')
-    call add_keyword(table, 'CONTROL_IMPLICIT_GENERAL', 'implicit integration and its step', &
+    call add_keyword(table, 'CONTROL_IMPLICIT_GENERAL', 'the time step', &
         required=1, once=.true.)
     call add_card(table)
-    call add_field(table, 'IMFLAG', 'I10 req >=0', '1 = implicit; nothing else is available')
-    call add_field(table, 'DT0', 'R10 req [T] >0', 'time step')
+    call add_field(table, 'IMFLAG', 'I10 =0 >=0', '1 = implicit; 0 = explicit: PBETA 0 of'// &
+        ' *BIPACT_TIME, which may have 1 as well')
+    call add_field(table, 'DT0', 'R10 =0.0 [T] >=0', &
+        'time step; 0 = by TSSFAC of *CONTROL_TIMESTEP, explicit runs only')
     call add_field(table, 'IMFORM', 'I10 note =2 0=d', 'of springback')
     call add_field(table, 'NSBS', 'I10 fixed =1 0=d', 'steps of springback')
     call add_field(table, 'IGS', 'I10 fixed =2 0=d', '2 = without geometric stiffness')
@@ -148,5 +151,36 @@ contains
     character(*), intent(in) :: name, spec
     call add_field(table, name, spec, 'of nonlinear solves')
   end subroutine add_nonlinear
+
+  !> The step of explicit runs; fields of mass scaling must be blank.
+  subroutine add_control_timestep(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'CONTROL_TIMESTEP', &
+        'the step of explicit runs; of others it has no effect', required=1)
+    call add_card(table)
+    call add_field(table, 'DTINIT', 'R10 ignored')
+    call add_field(table, 'TSSFAC', 'R10 =0.9 0=d', &
+        'explicit runs with a blank DT0: share of the limit of the elements, at most 1')
+    call add_field(table, 'ISDO', 'I10 ignored')
+    call add_field(table, 'TSLIMT', 'R10 fixed', 'moduli are never changed')
+    call add_field(table, 'DT2MS', 'R10 fixed', 'masses are never changed')
+    call add_field(table, 'LCTM', 'I10 ignored', 'explicit runs: blank; steps are equal')
+    call add_field(table, 'ERODE', 'I10 fixed', 'elements are never deleted')
+    call add_field(table, 'MS1ST', 'I10 ignored', 'of mass scaling')
+    call add_card(table)
+    call add_field(table, 'DT2MSF', 'R10 fixed', 'masses are never changed')
+    call add_field(table, 'DT2MSLC', 'I10 fixed', 'masses are never changed')
+    call add_field(table, 'IMSCL', 'I10 fixed', 'masses are never changed')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, 'RMSCL', 'R10 fixed', 'masses are never changed')
+    call add_field(table, 'EMSCL', 'R10 fixed', 'masses are never changed')
+    call add_field(table, '-', 'R10 ignored')
+    call add_card(table)
+    do k = 1, 8
+      call add_field(table, '-', 'R10 ignored')
+    end do
+  end subroutine add_control_timestep
 
 end module deck_keywords

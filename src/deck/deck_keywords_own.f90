@@ -30,7 +30,8 @@ contains
         'spectral radius at infinite frequency; blank = 0.8')
     call add_field(table, 'RULE', 'W10 |SAFE|PLAIN|', &
         'of MOREAU; SAFE: normal work is never positive; blank = SAFE')
-    call add_field(table, 'PBETA', 'R10 fixed =0.25', 'beta of PAOLI')
+    call add_field(table, 'PBETA', 'R10 >=0 <=0.25', &
+        'beta of PAOLI: 0.25, implicit, or 0, explicit; blank = 0.25')
     call add_keyword(table, 'BIPACT_STATIC', 'statics of bodies held by contact alone', &
         required=1, once=.true.)
     call add_card(table)

@@ -21,7 +21,6 @@ contains
     call add_other_outputs(table)
     call add_other_histories(table)
     call add_control_contact(table)
-    call add_control_timestep(table)
     call add_control_auto(table)
     call add_control_solution(table)
     call add_control_shell(table)
@@ -197,31 +196,6 @@ contains
       call add_ignored(table, 8 - table%keyword(table%n)%card(k)%fields)
     end do
   end subroutine add_control_contact
-
-  subroutine add_control_timestep(table)
-    type(table_t), intent(inout) :: table
-    call add_keyword(table, 'CONTROL_TIMESTEP', 'it concerns explicit steps; mass scaling '// &
-        '(DT2MS) must be blank', required=1, noted=.true.)
-    call add_card(table)
-    call add_field(table, 'DTINIT', 'R10 ignored')
-    call add_field(table, 'TSSFAC', 'R10 ignored')
-    call add_field(table, 'ISDO', 'I10 ignored')
-    call add_field(table, 'TSLIMT', 'R10 fixed', 'moduli are never changed')
-    call add_field(table, 'DT2MS', 'R10 fixed', 'masses are never changed')
-    call add_field(table, 'LCTM', 'I10 ignored', 'limits explicit steps')
-    call add_field(table, 'ERODE', 'I10 fixed', 'elements are never deleted')
-    call add_field(table, 'MS1ST', 'I10 ignored', 'of mass scaling')
-    call add_card(table)
-    call add_field(table, 'DT2MSF', 'R10 fixed', 'masses are never changed')
-    call add_field(table, 'DT2MSLC', 'I10 fixed', 'masses are never changed')
-    call add_field(table, 'IMSCL', 'I10 fixed', 'masses are never changed')
-    call add_ignored(table, 2)
-    call add_field(table, 'RMSCL', 'R10 fixed', 'masses are never changed')
-    call add_field(table, 'EMSCL', 'R10 fixed', 'masses are never changed')
-    call add_ignored(table, 1)
-    call add_card(table)
-    call add_ignored(table, 8)
-  end subroutine add_control_timestep
 
   subroutine add_control_auto(table)
     type(table_t), intent(inout) :: table

@@ -14,11 +14,13 @@ module deck_schemes
     logical :: takes_rho = .false.         !< RHOINF
     logical :: takes_restitution = .false. !< REST
     logical :: takes_rule = .false.        !< RULE
-    logical :: takes_pbeta = .false.       !< PBETA
+    logical :: takes_pbeta = .false.       !< PBETA: 1/4, or 0, which is explicit
     logical :: takes_dispersion = .true.   !< the mass DISPERSION, which may be singular
     logical :: takes_redist = .true.       !< massless contact nodes
     logical :: takes_damping = .true.      !< *DAMPING_...
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
+    !> Whatever its fields say: lumped masses alone in the effective matrix, and a largest step.
+    logical :: is_explicit = .false.
   end type scheme_traits_t
 
   type(scheme_traits_t), parameter, public :: schemes(*) = [ &
@@ -30,8 +32,8 @@ module deck_schemes
       takes_rule=.true., takes_redist=.false.), &
       scheme_traits_t('PAOLI', takes_restitution=.true., takes_pbeta=.true., &
       takes_redist=.false.), &
-      scheme_traits_t('CDLAGRANGE', takes_restitution=.true., takes_dispersion=.false., &
-      takes_redist=.false.), &
+      scheme_traits_t('CDLAGRANGE', takes_restitution=.true., takes_redist=.false., &
+      is_explicit=.true.), &
       scheme_traits_t('THETAPV', takes_dispersion=.false., takes_redist=.false.), &
       scheme_traits_t('NSGENALPHA', takes_rho=.true., takes_restitution=.true., &
       takes_dispersion=.false., takes_redist=.false., takes_damping=.false., &

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What an element type offers: matrices of one element from plain arrays, no mesh.
 module element_base
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   implicit none
   private
   integer, parameter, public :: most_nodes = 4   !< of an element
@@ -16,6 +16,7 @@ module element_base
     procedure(jacobian_i), deferred :: smallest_jacobian
     procedure(strain_i), deferred :: mean_strain_matrix
     procedure :: mean_strain => element_mean_strain
+    procedure :: lumped_mass => element_lumped_mass
   end type element_t
 
   !> An element in a list of elements of several kinds.
@@ -87,5 +88,20 @@ contains
       strain = strain + (b(:, 2*i - 1)*d(1) + b(:, 2*i)*d(2))
     end do
   end function element_mean_strain
+
+  !> Lumped mass (n) [M]: row sums of the consistent one.
+  pure function element_lumped_mass(this, x, density, thickness) result(mass)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: density
+    real(wp), intent(in) :: thickness
+    real(wp) :: mass(size(x, 2)), me(size(x, 2), size(x, 2))
+    real(wp), parameter :: gauss = one/sqrt(3.0_wp)
+    integer :: k
+    call this%mass(x, density, thickness, [gauss, gauss], me)
+    do k = 1, size(x, 2)
+      mass(k) = sum(me(:, k))
+    end do
+  end function element_lumped_mass
 
 end module element_base

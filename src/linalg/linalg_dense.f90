@@ -3,6 +3,7 @@
 !> A block is scaled by a power of two before the square roots of Cholesky, so that a change of
 !> units by powers of two changes no digit.
 module linalg_dense
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical
@@ -17,7 +18,7 @@ module linalg_dense
   end type dense_spd_t
 
   public :: dense_factor, dense_solve, dense_inverse, solve_general, solve_banded, &
-      solve_small, largest_eigenvalue_2, largest_eigenvalue
+      solve_small, largest_eigenvalue_2, largest_eigenvalue, largest_by_lapack
 
   interface
     subroutine dpotrf(uplo, n, a, lda, info)
@@ -42,6 +43,15 @@ module linalg_dense
       real(wp), intent(inout) :: a(lda, *)
       integer, intent(out) :: info
     end subroutine dpotri
+    subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+      import :: wp
+      character, intent(in) :: jobz, uplo
+      integer, intent(in) :: n, lda, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      real(wp), intent(out) :: w(*)
+      real(wp), intent(inout) :: work(*)
+      integer, intent(out) :: info
+    end subroutine dsyev
     subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
       import :: wp
       integer, intent(in) :: n, nrhs, lda, ldb
@@ -155,6 +165,19 @@ contains
     shear = half*(a(1, 2) + a(2, 1))
     largest_eigenvalue_2 = mean + sqrt(difference**2 + shear**2)
   end function largest_eigenvalue_2
+
+  !> Largest eigenvalue of a symmetric matrix of any order, which is destroyed; only its lower
+  !> triangle is read. NaN where there is none.
+  subroutine largest_by_lapack(a, largest)
+    real(wp), intent(inout) :: a(:, :)
+    real(wp), intent(out) :: largest
+    real(wp) :: values(size(a, 1)), work(4*size(a, 1))
+    integer :: info
+    if (checks_on) call assert_shape(shape(a), [1, 1]*size(a, 1), 'largest_by_lapack', 'a')
+    call dsyev('N', 'L', size(a, 1), a, size(a, 1), values, work, size(work), info)
+    largest = values(size(values))
+    if (info /= 0) largest = ieee_value(one, ieee_quiet_nan)
+  end subroutine largest_by_lapack
 
   !> Largest eigenvalue of the symmetric part of a matrix of order 1 to 3. Order 3: the
   !> trigonometric root of the characteristic polynomial (Smith 1961).

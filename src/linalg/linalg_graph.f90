@@ -16,9 +16,12 @@ module linalg_graph
     procedure :: position => graph_position
   end type graph_t
 
-  !> A = blocks (2, 2, size(column)) on a graph [F/L].
+  !> A = blocks (2, 2, size(column)) on a graph [F/L]; or, where it is diagonal, (2, n) alone.
   type, public :: block_matrix_t
     real(wp), allocatable :: value(:, :, :)
+    real(wp), allocatable :: diagonal(:, :)
+  contains
+    procedure :: diagonal_entry
   end type block_matrix_t
 
   public :: graph_from_cliques, scalar_product, scalar_rows
@@ -99,6 +102,18 @@ contains
     graph_position = find_sorted(this%column(this%first(row):this%first(row + 1) - 1), column)
     if (graph_position > 0) graph_position = graph_position + this%first(row) - 1
   end function graph_position
+
+  !> The entry of A on the diagonal, of one direction of one node.
+  pure real(wp) function diagonal_entry(this, graph, direction, node)
+    class(block_matrix_t), intent(in) :: this
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: direction, node
+    if (allocated(this%diagonal)) then
+      diagonal_entry = this%diagonal(direction, node)
+    else
+      diagonal_entry = this%value(direction, direction, graph%position(node, node))
+    end if
+  end function diagonal_entry
 
   !> y = y + factor * S x for a node-scalar matrix S on a graph; x, y (2, n).
   pure subroutine scalar_product(n, first, column, s, factor, x, y)

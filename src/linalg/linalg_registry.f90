@@ -4,12 +4,16 @@
 module linalg_registry
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: join
+  use linalg_diagonal, only: diagonal_t
   use linalg_ldlt, only: ldlt_t
   use linalg_skyline, only: skyline_t
   use linalg_solver, only: solver_t, solver_options_t
   implicit none
   private
   public :: make_solver, engine_names
+
+  !> The engine of diagonal matrices, which takes no other: chosen by what makes the matrix.
+  character(*), parameter, public :: engine_diagonal = 'DIAGONAL'
 
 contains
 
@@ -44,6 +48,7 @@ contains
     allocate (names(0))
     call offer('LDLT', ldlt_t())
     call offer('SKYLINE', skyline_t())
+    call offer(engine_diagonal, diagonal_t(takes_diagonal=.true.))
   contains
     subroutine offer(name, engine)
       character(*), intent(in) :: name
@@ -51,6 +56,7 @@ contains
       names = [character(8) :: names, name]
       if (allocated(solver) .or. (wanted /= name .and. wanted /= 'AUTO')) return
       allocate (solver, mold=engine)
+      solver%takes_diagonal = engine%takes_diagonal
       solver%info%engine = name
     end subroutine offer
   end subroutine find_engine

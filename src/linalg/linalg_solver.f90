@@ -37,6 +37,7 @@ module linalg_solver
     type(solver_info_t) :: info
     integer :: n = 0
     integer :: n_interface = 0
+    logical :: takes_diagonal = .false.   !< `diagonal` of a matrix, and no other matrix
     integer, allocatable :: order(:)  !< (n) new -> old
     type(dense_spd_t) :: schur        !< Schur complement S of the last nodes
   contains
@@ -137,7 +138,7 @@ contains
   end subroutine check_graph
 
   !> Assertions on what an engine is given to factor: the graph it has analysed, and a block for
-  !> each of its entries.
+  !> each of its entries, or the diagonal.
   subroutine check_matrix(solver, graph, matrix, place)
     class(solver_t), intent(in) :: solver
     type(graph_t), intent(in) :: graph
@@ -145,7 +146,11 @@ contains
     character(*), intent(in) :: place
     if (.not. checks_on) return
     call assert(graph%n == solver%n, place, 'the graph is the one that was analysed')
-    call assert_shape(shape(matrix%value), [2, 2, size(graph%column)], place, 'matrix%value')
+    if (solver%takes_diagonal) then
+      call assert_shape(shape(matrix%diagonal), [2, graph%n], place, 'matrix%diagonal')
+    else
+      call assert_shape(shape(matrix%value), [2, 2, size(graph%column)], place, 'matrix%value')
+    end if
   end subroutine check_matrix
 
   !> Assertions on the vectors of a forward or backward pass: (2, n) of all nodes,

@@ -159,6 +159,9 @@ module model_data
     real(wp) :: restitution = 0.0_wp    !< of contact nodes
     logical :: is_safe = .true.         !< RULE SAFE: normal work is never positive
     real(wp) :: pbeta = 0.25_wp         !< of PAOLI
+    logical :: is_explicit = .false.    !< lumped masses alone in the effective matrix
+    real(wp) :: step_limit = huge(1.0_wp)   !< of an explicit scheme [T]
+    integer :: limit_element = 0        !< id of the element that sets it
     logical :: is_static = .false.
     real(wp) :: static_until = 0.0_wp   !< end of a static phase before dynamics [T]
     real(wp) :: static_shift = 1.0e-3_wp, static_residual = 1.0e-10_wp

@@ -110,8 +110,8 @@ contains
       if (.not. run%active_motion(k)) cycle
       associate (d => run%model%motion(k)%direction, node => run%model%motion(k)%node)
         do m = 1, size(node)
-          run%b(d, node(m)) = run%matrix%value(d, d, &
-              run%system%graph%position(node(m), node(m)))*run%given(d, node(m))
+          run%b(d, node(m)) = run%matrix%diagonal_entry(run%system%graph, d, node(m))* &
+              run%given(d, node(m))
         end do
       end associate
     end do

@@ -2,20 +2,21 @@
 !> The effective matrices of a scheme with their factors. One is in use; a scheme of two stages
 !> has another beside it, and they change places by their addresses.
 module run_operator
-  use assembly_system, only: effective_matrix
+  use assembly_system, only: effective_matrix, diagonal_matrix
   use base_kinds, only: wp, zero
   use base_messages, only: add_message
   use base_status, only: status_t, failed
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
-  use linalg_registry, only: make_solver
-  use linalg_solver, only: solver_t
+  use linalg_graph, only: block_matrix_t
+  use linalg_registry, only: make_solver, engine_diagonal
+  use linalg_solver, only: solver_t, solver_options_t
   use run_data, only: run_t, operator_t
   use run_motion, only: find_smooth_reactions
   implicit none
   private
-  public :: make_operators, make_other, factor_matrix, use_operator
+  public :: make_operators, change_operators, factor_matrix, use_operator
 
 contains
 
@@ -24,10 +25,43 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     run%stage_in_use = 1
-    call make_solver(run%solver_options, run%solver, status)
+    call make_engine(run, 1, run%solver, status)
     if (failed(status)) return
     call make_other(run, status)
   end subroutine make_operators
+
+  !> The scheme is another one. again: some matrix must be analysed anew.
+  subroutine change_operators(run, again, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(out) :: again
+    type(status_t), intent(inout) :: status
+    again = has_diagonal_matrix(run, 1) .neqv. run%solver%takes_diagonal
+    if (again) call make_engine(run, 1, run%solver, status)
+    call make_other(run, status)
+    again = again .or. allocated(run%other)
+  end subroutine change_operators
+
+  !> The solver of a stage: as the deck asks, or the one of diagonal matrices.
+  subroutine make_engine(run, stage, solver, status)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: stage
+    class(solver_t), allocatable, intent(out) :: solver
+    type(status_t), intent(inout) :: status
+    type(solver_options_t) :: options
+    options = run%solver_options
+    if (has_diagonal_matrix(run, stage)) options%engine = engine_diagonal
+    call make_solver(options, solver, status)
+  end subroutine make_engine
+
+  !> Is the effective matrix of a stage lumped masses alone?
+  pure logical function has_diagonal_matrix(run, stage)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: stage
+    associate (s => run%scheme%stage(stage))
+      has_diagonal_matrix = run%system%mass_is_diagonal .and. .not. any( &
+          abs([s%c_k, s%c_c, s%c_layer]) > zero)
+    end associate
+  end function has_diagonal_matrix
 
   !> The solver of a second stage, if there is one, and what its reactions need.
   subroutine make_other(run, status)
@@ -35,7 +69,7 @@ contains
     type(status_t), intent(inout) :: status
     if (size(run%scheme%stage) == 1) return
     allocate (run%other)
-    call make_solver(run%solver_options, run%other%solver, status)
+    call make_engine(run, 2, run%other%solver, status)
     if (.not. run%plan%reactions) return
     allocate (run%first_reaction(2, run%system%n), source=zero)
     if (.not. allocated(run%state%a_smooth)) return
@@ -52,20 +86,22 @@ contains
     if (stage == run%stage_in_use) return
     run%stage_in_use = stage
     call move_alloc(run%solver, kept%solver)
-    call move_alloc(run%matrix%value, kept%matrix%value)
-    if (allocated(run%contact%schur_inverse)) &
-        call move_alloc(run%contact%schur_inverse, kept%schur_inverse)
+    call move_matrix(run%matrix, kept%matrix)
+    call move_alloc(run%contact%schur_inverse, kept%schur_inverse)
     call move_alloc(run%other%solver, run%solver)
-    if (allocated(run%other%matrix%value)) &
-        call move_alloc(run%other%matrix%value, run%matrix%value)
-    if (allocated(run%other%schur_inverse)) &
-        call move_alloc(run%other%schur_inverse, run%contact%schur_inverse)
+    call move_matrix(run%other%matrix, run%matrix)
+    call move_alloc(run%other%schur_inverse, run%contact%schur_inverse)
     call move_alloc(kept%solver, run%other%solver)
-    if (allocated(kept%matrix%value)) call move_alloc(kept%matrix%value, run%other%matrix%value)
-    if (allocated(kept%schur_inverse)) &
-        call move_alloc(kept%schur_inverse, run%other%schur_inverse)
+    call move_matrix(kept%matrix, run%other%matrix)
+    call move_alloc(kept%schur_inverse, run%other%schur_inverse)
     run%contact%w_is_current = .false.
   end subroutine use_operator
+
+  subroutine move_matrix(from, to)
+    type(block_matrix_t), intent(inout) :: from, to
+    call move_alloc(from%value, to%value)
+    call move_alloc(from%diagonal, to%diagonal)
+  end subroutine move_matrix
 
   !> Factors of the effective matrices of all stages, with the interface nodes last and their
   !> flexibility; again is true when the interface has changed and the order must be found
@@ -101,8 +137,12 @@ contains
     type(status_t), intent(inout) :: status
     integer :: m
     associate (stage => run%scheme%stage(number))
-      call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
-          run%matrix)
+      if (run%solver%takes_diagonal) then
+        call diagonal_matrix(run%system, stage%c_m, run%matrix)
+      else
+        call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
+            run%matrix)
+      end if
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     if (again) then

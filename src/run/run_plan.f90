@@ -20,6 +20,7 @@ contains
     type(model_t), intent(in) :: model
     type(plan_t), intent(inout) :: plan
     call plan_steps(model, plan)
+    if (model%controls%is_explicit) call plan_explicit(model, plan)
     call plan_contact(model, plan)
     plan%loads = size(model%load) + size(model%gravity) > 0
     call add_feature(plan, 'loads', plan%loads, to_text(size(model%load))//' nodal, '// &
@@ -66,6 +67,22 @@ contains
           to_text(c%end_time/c%dt))
     end associate
   end subroutine plan_steps
+
+  !> What the step is held to, and what a diagonal matrix does not need.
+  subroutine plan_explicit(model, plan)
+    type(model_t), intent(in) :: model
+    type(plan_t), intent(inout) :: plan
+    associate (c => model%controls)
+      call add_feature(plan, 'explicit', .true., 'DT0 = '//to_text(c%dt/c%step_limit)// &
+          ' of the limit, '//to_text(c%step_limit)//', of element '//to_text(c%limit_element))
+      if (c%static_until > zero) then
+        call add_feature(plan, 'factor', .true., 'of the static phase alone')
+      else
+        call add_feature(plan, 'factor', .false., &
+            'lumped masses alone: no elimination order, no refinement')
+      end if
+    end associate
+  end subroutine plan_explicit
 
   subroutine plan_contact(model, plan)
     type(model_t), intent(in) :: model

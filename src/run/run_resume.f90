@@ -179,6 +179,7 @@ contains
     type(restart_header_t), intent(in) :: header
     type(status_t), intent(inout) :: status
     character(:), allocatable :: what
+    call check_step(run, path, header, status)
     if (header%cycle <= run%plan%full_steps) return
     associate (c => run%model%controls)
       what = 'ENDTIM '//to_text(c%end_time)
@@ -188,6 +189,21 @@ contains
         what//' lies before the file, step '//to_text(header%cycle)//', time '// &
         to_text(header%time), hint='name an older restart file, or start anew')
   end subroutine check_end
+
+  !> A step that is found from ENDTIM must be that of the run so far.
+  subroutine check_step(run, path, header, status)
+    type(run_t), intent(in) :: run
+    character(*), intent(in) :: path
+    type(restart_header_t), intent(in) :: header
+    type(status_t), intent(inout) :: status
+    associate (dt => run%model%controls%dt)
+      if (.not. run%model%controls%is_explicit) return
+      if (.not. abs(header%time - header%cycle*dt) > zero) return
+      call fail(status, status_file, 'cannot restart from "'//path//'": its steps were '// &
+          'others than those of '//to_text(dt)//' that a blank DT0 makes of this ENDTIM', &
+          hint='with DT0 given from the start ENDTIM may change')
+    end associate
+  end subroutine check_step
 
   !> Tables that need what was not kept of the step: their rows begin after it.
   subroutine begin_late_tables(run, origin)

@@ -18,7 +18,7 @@ module run_setup
   use run_damping, only: make_damping, start_damping, update_damping
   use run_data, only: run_t
   use run_motion, only: make_motions, start_reactions
-  use run_operator, only: factor_matrix, make_operators, make_other
+  use run_operator, only: factor_matrix, make_operators, change_operators
   use run_plan, only: make_plan, add_feature
   use run_static, only: make_shift
   use scene_model, only: make_scene
@@ -151,6 +151,10 @@ contains
     run%plan%refinement = run%plan%refined_from < run%plan%full_steps + &
         merge(1, 0, run%plan%last_step > zero)
     if (allocated(run%correction)) return
+    if (run%solver%takes_diagonal) then
+      call add_feature(run%plan, 'refinement', .false., 'the effective matrix is diagonal')
+      return
+    end if
     call add_feature(run%plan, 'refinement', run%plan%refinement, 'stiffness/inertia = '// &
         to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio)// &
         '; after '//to_text(run%plan%refined_from)//' steps, when the drift may pass '// &
@@ -192,7 +196,7 @@ contains
   subroutine start_dynamics(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    logical :: changed
+    logical :: changed, again
     call make_scheme(run%model%controls, .false., run%scheme, status)
     if (run%plan%contact) call set_contact_rule(run)
     if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
@@ -202,8 +206,8 @@ contains
     call run%scheme%start(run%model, run%system, run%state, status)
     if (run%plan%damping) call start_damping(run)
     if (run%plan%damping .and. run%plan%reactions) call start_reactions(run)
-    call make_other(run, status)
-    call factor_matrix(run, allocated(run%other), status)
+    call change_operators(run, again, status)
+    call factor_matrix(run, again, status)
     call plan_refinement(run)
   end subroutine start_dynamics
 

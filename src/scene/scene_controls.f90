@@ -7,9 +7,11 @@ module scene_controls
   use deck_problems, only: add_warning, add_problem, add_note
   use deck_reader, only: read_more
   use deck_schemes, only: scheme_traits_t, traits_of
+  use linalg_registry, only: engine_diagonal
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t, controls_t, count_steps
   use scene_contact, only: contact_keyword
+  use scene_step, only: read_timestep
   implicit none
   private
   public :: read_controls, read_solver_options, note_keywords
@@ -30,6 +32,7 @@ contains
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     integer :: r
+    logical :: is_implicit
     r = deck%next('TITLE', 1, 0)
     if (r > 0) model%title = deck%word(r, 'TITLE')
     associate (controls => model%controls)
@@ -39,17 +42,18 @@ contains
         controls%end_cycle = deck%integer(r, 'ENDCYC')
         controls%end_ratio = deck%real(r, 'ENDENG')/100.0_wp
       end if
-      r = required(deck, 'CONTROL_IMPLICIT_GENERAL', &
-          ' with IMFLAG 1: explicit integration is not available in this version')
+      is_implicit = .false.
+      r = deck%next('CONTROL_IMPLICIT_GENERAL', 1, 0)
       if (r > 0) then
         controls%dt = deck%real(r, 'DT0')
-        if (deck%integer(r, 'IMFLAG') /= 1) call deck%complain(r, 'IMFLAG', &
-            'expected 1: explicit integration is not available in this version')
+        is_implicit = deck%integer(r, 'IMFLAG') == 1
+        if (deck%integer(r, 'IMFLAG') > 1) call deck%complain(r, 'IMFLAG', &
+            'expected 1 (implicit) or 0 (explicit)')
       end if
       r = deck%next('CONTROL_IMPLICIT_DYNAMICS', 1, 0)
-      controls%is_static = r == 0
+      controls%is_static = r == 0 .and. is_implicit
       if (r > 0) call read_dynamics(deck, controls, r)
-      if (r == 0) call add_note(deck%problems, &
+      if (controls%is_static .and. r == 0) call add_note(deck%problems, &
           'no *CONTROL_IMPLICIT_DYNAMICS: the analysis is static')
       if (controls%is_static) then
         call refuse_dynamic(deck, 'BIPACT_TIME', 'SCHEME')
@@ -59,6 +63,8 @@ contains
         call read_mass(deck, controls)
       end if
       call read_static(deck, controls)
+      call read_timestep(deck, controls)
+      if (.not. (controls%is_explicit .or. is_implicit)) call refuse_explicit(deck, controls)
       call check_steps(deck, controls)
       r = deck%next('BIPACT_LEDGER', 1, 0)
       if (r == 0) return
@@ -68,7 +74,28 @@ contains
     end associate
   end subroutine read_controls
 
-  !> The number of steps must be countable, and whole for a mass that is tuned to the step.
+  !> IMFLAG 0, or no *CONTROL_IMPLICIT_GENERAL, with what is implicit.
+  subroutine refuse_explicit(deck, controls)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(in) :: controls
+    character(:), allocatable :: why
+    character(*), parameter :: hint = 'explicit runs name SCHEME PAOLI with PBETA 0 on '// &
+        '*BIPACT_TIME'
+    integer :: r
+    why = 'scheme '//trim(controls%scheme)//' of *BIPACT_TIME is implicit'
+    if (controls%is_static) why = 'IMASS 0 of *CONTROL_IMPLICIT_DYNAMICS is static'
+    r = deck%next('CONTROL_IMPLICIT_GENERAL', 1, 0)
+    if (r > 0) then
+      if (deck%integer(r, 'IMFLAG') == 0) &
+          call deck%complain(r, 'IMFLAG', 'expected 1: '//why, hint)
+    else
+      call add_problem(deck%problems, deck%file(1)%path//': the deck needs '// &
+          '*CONTROL_IMPLICIT_GENERAL with IMFLAG 1: '//why//new_line('a')//'    hint: '//hint)
+    end if
+  end subroutine refuse_explicit
+
+  !> The number of steps must be countable, and whole for a mass that is tuned to the step; only
+  !> explicit schemes find a step of their own.
   subroutine check_steps(deck, controls)
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(in) :: controls
@@ -76,6 +103,14 @@ contains
     integer :: r, steps
     r = deck%next('CONTROL_IMPLICIT_GENERAL', 1, 0)
     if (deck%problems%count > 0 .or. r == 0) return
+    if (.not. controls%dt > zero) then
+      if (.not. controls%is_explicit) call deck%complain(r, 'DT0', &
+          'expected a number > 0: only an explicit scheme has a step of its own')
+      if (controls%is_explicit .and. controls%static_until > zero) call deck%complain(r, &
+          'DT0', 'expected a number > 0, for the static phase of TDYBIR on '// &
+          '*CONTROL_IMPLICIT_DYNAMICS')
+      return
+    end if
     if (.not. controls%end_time/2.0e9_wp < controls%dt) then
       call deck%complain(r, 'DT0', 'ENDTIM/DT0 asks for more than 2e9 steps')
       return
@@ -97,7 +132,7 @@ contains
     controls%beta = deck%real(r, 'BETA')
     controls%is_static = deck%integer(r, 'IMASS') == 0
     if (.not. controls%is_static) controls%static_until = deck%real(r, 'TDYBIR')
-    if (controls%static_until > zero) then
+    if (controls%static_until > zero .and. controls%dt > zero) then
       call count_steps(controls%static_until, controls%dt, steps, rest)
       if (rest > zero) call deck%complain(r, 'TDYBIR', &
           'expected a whole number of steps DT0 in the static phase')
@@ -148,6 +183,12 @@ contains
     call refuse_field(deck, r, controls%scheme, 'THETA', traits%takes_theta)
     call refuse_field(deck, r, controls%scheme, 'XI', traits%takes_theta)
     call refuse_field(deck, r, controls%scheme, 'RHOINF', traits%takes_rho)
+    call refuse_field(deck, r, controls%scheme, 'PBETA', traits%takes_pbeta)
+    if (deck%is_given(r, 'PBETA')) controls%pbeta = deck%real(r, 'PBETA')
+    if (traits%is_explicit) controls%pbeta = zero
+    controls%is_explicit = .not. controls%pbeta > zero
+    if (controls%pbeta > zero .and. controls%pbeta < 0.25_wp) call deck%complain(r, 'PBETA', &
+        'expected 0.25 (implicit) or 0 (explicit)')
     if (deck%is_given(r, 'RHOINF')) controls%rho = deck%real(r, 'RHOINF')
     call read_contact_law(deck, controls, traits, r)
     call check_dynamics(deck, controls, traits)
@@ -247,8 +288,9 @@ contains
     integer :: r
     logical :: midpoint
     r = deck%next('BIPACT_MASS', 1, 0)
+    if (controls%is_explicit) call lump_mass(deck, controls, r)
     if (r == 0) return
-    controls%mass = deck%word(r, 'TYPE')
+    if (.not. controls%is_explicit) controls%mass = deck%word(r, 'TYPE')
     controls%redistribute = deck%integer(r, 'REDIST') == 1
     traits = traits_of(controls%scheme)
     if (controls%redistribute .and. .not. traits%takes_redist) &
@@ -270,6 +312,24 @@ contains
         'take these or another mass')
   end subroutine read_mass
 
+  !> An explicit scheme has lumped masses, asked for or not.
+  subroutine lump_mass(deck, controls, r)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    integer, intent(in) :: r
+    logical :: is_given
+    controls%mass = 'LUMPED'
+    is_given = .false.
+    if (r > 0) is_given = deck%is_given(r, 'TYPE')
+    if (.not. is_given) then
+      call add_note(deck%problems, 'the mass is LUMPED: scheme '//trim(controls%scheme)// &
+          ' is explicit')
+    else if (deck%word(r, 'TYPE') /= controls%mass) then
+      call deck%complain(r, 'TYPE', 'expected LUMPED: scheme '//trim(controls%scheme)// &
+          ' of *BIPACT_TIME is explicit')
+    end if
+  end subroutine lump_mass
+
   !> Is a scheme the mid-point rule for waves? The mass DISPERSION is tuned to that.
   pure logical function is_midpoint(controls, traits)
     type(controls_t), intent(in) :: controls
@@ -290,7 +350,7 @@ contains
 
   !> *BIPACT_CONTACT and *BIPACT_SOLVER.
   subroutine read_solver_options(deck, controls, cone, solver)
-    type(deck_t), intent(in) :: deck
+    type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
     type(cone_options_t), intent(inout) :: cone
     type(solver_options_t), intent(inout) :: solver
@@ -320,7 +380,32 @@ contains
     solver%engine = deck%word(r, 'ENGINE')
     solver%order = deck%word(r, 'ORDER')
     solver%block_limit = deck%integer(r, 'NLAST')
+    call check_engine(deck, controls, solver, r)
   end subroutine read_solver_options
+
+  !> The engine of diagonal matrices is that of explicit schemes alone, and theirs alone; only a
+  !> static phase before them has a matrix to factor.
+  subroutine check_engine(deck, controls, solver, r)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(in) :: controls
+    type(solver_options_t), intent(in) :: solver
+    integer, intent(in) :: r
+    character(:), allocatable :: why
+    why = 'scheme '//trim(controls%scheme)//' of *BIPACT_TIME'
+    if (controls%is_static) why = 'the static analysis'
+    if (controls%static_until > zero) why = 'the static phase (TDYBIR of '// &
+        '*CONTROL_IMPLICIT_DYNAMICS)'
+    if (controls%is_explicit .and. .not. controls%static_until > zero) then
+      if (solver%engine /= 'AUTO' .and. solver%engine /= engine_diagonal) &
+          call deck%complain(r, 'ENGINE', 'expected AUTO or '//engine_diagonal//': '//why// &
+          ' is explicit, its matrix is diagonal')
+      if (solver%order /= 'AUTO') call deck%complain(r, 'ORDER', 'expected AUTO: '//why// &
+          ' is explicit, nothing is eliminated from its diagonal matrix')
+    else if (solver%engine == engine_diagonal) then
+      call deck%complain(r, 'ENGINE', 'expected another engine: the matrix of '//why// &
+          ' is not diagonal')
+    end if
+  end subroutine check_engine
 
   !> One note for each keyword that was read and checked but has no effect.
   subroutine note_keywords(deck)

@@ -19,6 +19,7 @@ module scene_model
   use scene_storage, only: read_storage
   use scene_parts, only: read_materials, read_parts
   use scene_sets, only: read_sets
+  use scene_step, only: find_step
   implicit none
   private
   public :: make_scene
@@ -43,6 +44,7 @@ contains
       call read_elements(deck, model, maps)
     end if
     if (deck%problems%count == 0) call check_mesh(deck, model)
+    if (deck%problems%count == 0 .and. model%controls%is_explicit) call find_step(deck, model)
     if (deck%problems%count == 0) then
       call read_sets(deck, model, maps)
       call read_curves(deck, model, maps)

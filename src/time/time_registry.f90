@@ -2,7 +2,6 @@
 !> Time schemes by name. To add one: its file, its `use`, its case; its traits are a row of
 !> deck_schemes.
 module time_registry
-  use base_kinds, only: zero
   use base_status, only: status_t, fail, status_deck
   use deck_schemes, only: scheme_traits_t, traits_of
   use model_data, only: controls_t
@@ -50,7 +49,7 @@ contains
     case ('PAOLI')
       allocate (scheme, source=paoli_t(beta=controls%pbeta))
     case ('CDLAGRANGE')
-      allocate (scheme, source=paoli_t(beta=zero, on_velocities=.true.))
+      allocate (scheme, source=paoli_t(beta=controls%pbeta, on_velocities=.true.))
     case ('THETAPV')
       allocate (thetapv_t :: scheme)
     case ('NSGENALPHA')

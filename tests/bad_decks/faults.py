@@ -16,6 +16,7 @@ ELEMENT = "       1       1       1       2       3       4"
 MATERIAL = "         1     0.001    1000.0       0.3"
 CURVE = "*DEFINE_CURVE\n1,\n0.0,1.0\n0.1,1.0\n"
 EXPRESSION = "*PARAMETER_EXPRESSION\n"
+EXPLICIT = "PAOLI,,,,,,0.0"
 PARAMETER = "Rtend           0.01Rdt            1e-03"
 BASE_FAULTS = [
     # the frame
@@ -241,6 +242,47 @@ BASE_FAULTS = [
     ("restart keep", "*END", "*BIPACT_RESTART\n       100,,0\n*END"),
     ("d3plot curve", "*END", "*DATABASE_BINARY_D3PLOT\n     0.001         5\n*END"),
     ("engine", "*END", "*BIPACT_SOLVER\n     MUMPS\n*END"),
+    # explicit runs
+    ("implicit flag", "         1       &dt", "         4       &dt"),
+    ("no step", "         1       &dt", "         1"),
+    ("no step card", "*CONTROL_IMPLICIT_GENERAL\n         1       &dt\n", ""),
+    (
+        "explicit and static",
+        "         1       &dt",
+        "         0       &dt",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         0",
+        "*BIPACT_TIME\n     THETA       0.5\n",
+        "",
+    ),
+    ("beta of another scheme", "     THETA       0.5", "THETA,,,,,,0.25"),
+    ("beta between", "     THETA       0.5", "PAOLI,,,,,,0.1"),
+    ("diagonal engine of an implicit scheme", "*END", "*BIPACT_SOLVER\n  DIAGONAL\n*END"),
+    ("explicit, above the limit", "     THETA       0.5", EXPLICIT),
+    ("explicit, consistent", "     THETA       0.5", EXPLICIT + "\n*BIPACT_MASS\nCONSISTENT"),
+    ("explicit, massless", "     THETA       0.5", EXPLICIT + "\n*BIPACT_MASS\nLUMPED,1"),
+    ("explicit, another engine", "     THETA       0.5", EXPLICIT + "\n*BIPACT_SOLVER\nLDLT,"),
+    ("explicit, an order", "     THETA       0.5", EXPLICIT + "\n*BIPACT_SOLVER\n,METIS"),
+    ("explicit, TSSFAC", "     THETA       0.5", EXPLICIT + "\n*CONTROL_TIMESTEP\n,1.2"),
+    ("explicit, LCTM", "     THETA       0.5", EXPLICIT + "\n*CONTROL_TIMESTEP\n,,,,,5"),
+    (
+        "explicit, static phase without a step",
+        "     THETA       0.5",
+        EXPLICIT,
+        "         1       &dt",
+        "         0",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1",
+        "*CONTROL_IMPLICIT_DYNAMICS\n1,,,0.005",
+    ),
+    (
+        "explicit, steps without end",
+        "     THETA       0.5",
+        EXPLICIT,
+        "         1       &dt",
+        "         0",
+        "     &tend",
+        "    1.0e9",
+    ),
     # mesh
     ("undefined node", ELEMENT, "       1       1       1       2       3       9"),
     ("clockwise", ELEMENT, "       1       1       4       3       2       1"),

@@ -43,6 +43,8 @@ def scene(name):
         make_bars.write(path, scheme="NEWMARK", mu=0.2, slide=0.2, **bars)
     elif name == "lumped":
         make_bars.write(path, mass="LUMPED", **bars)
+    elif name == "explicit":
+        make_bars.write(path, scheme="PAOLI", pbeta=0.0, mass="LUMPED", mu=0.3, slide=0.3, **bars)
     elif name == "asleep":
         make_bars.write(path, **dict(bars, touch=100.5))
     elif name == "wall":
@@ -66,7 +68,8 @@ DAMPING = (
     "*DAMPING_PART_MASS\n1,77,2.0\n*DAMPING_PART_STIFFNESS\n2,-1e-4\n"
 )
 SCENES = (
-    "smooth friction massless newmark lumped asleep wall block pushed damped damped-newmark".split()
+    "smooth friction massless newmark lumped explicit asleep wall block pushed damped "
+    "damped-newmark".split()
 )
 
 

@@ -218,7 +218,7 @@ add(
 )
 add(
     "filled: an explicit deck",
-    "refused",
+    "fault",
     filled,
     general=None,
     dynamics=None,

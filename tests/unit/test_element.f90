@@ -2,9 +2,11 @@
 !> Every element of the registry: rigid motions, patch test, masses, shapes; and the laws.
 program test_element
   use base_kinds, only: wp, zero, one, half
-  use check, only: test_start, test_end, check_true, check_close
+  use check, only: test_start, test_end, check_true, check_close, seed_random
   use element_base, only: element_t
+  use element_limit, only: stable_step
   use element_registry, only: make_element
+  use linalg_dense, only: largest_by_lapack
   use material_base, only: material_t, plane_stress, plane_strain
   use material_registry, only: make_material
   implicit none
@@ -23,6 +25,11 @@ program test_element
     call test_stiffness(plane_strain)
     call test_mass()
     call test_shape()
+  end do
+  call seed_random(7)
+  call test_square_limits()
+  do nodes = 3, 4
+    call test_limit_of_mesh(nodes)
   end do
   call test_end()
 
@@ -125,5 +132,85 @@ contains
     call check_close(material%wave_speed(plane_stress), sqrt(200.0_wp/(0.91_wp*density)), &
         1.0e-14_wp, 'speed in plane stress', 10.0_wp)
   end subroutine test_law
+
+  !> Squares: the mode of highest frequency is the uniform dilation, omega^2 =
+  !> 4 (d11 + d12)/(rho side^2), so the largest step over side/c_p is sqrt(1 - nu) in plane
+  !> strain, 1/sqrt(1 + nu) in plane stress. To the round-off of an eigenvalue of order 8.
+  subroutine test_square_limits()
+    real(wp), parameter :: side = 0.3_wp
+    real(wp), parameter :: x(2, 4) = side*reshape([0, 0, 1, 0, 1, 1, 0, 1], [2, 4])
+    real(wp), parameter :: ratios(5) = [zero, 0.3_wp, 0.45_wp, 0.3_wp, 0.45_wp]
+    integer, parameter :: planes(5) = [plane_strain, plane_strain, plane_strain, &
+        plane_stress, plane_stress]
+    real(wp) :: h, exact
+    integer :: k
+    call make_element(4, element)
+    do k = 1, size(ratios)
+      call make_material('MAT_ELASTIC', 1, [density, 200.0_wp, ratios(k)], material)
+      call stable_step(element, x, density, material%moduli(planes(k)), thickness, h)
+      exact = sqrt(one - ratios(k))
+      if (planes(k) == plane_stress) exact = one/sqrt(one + ratios(k))
+      call check_close(h*material%wave_speed(planes(k))/side, exact, 1.0e-14_wp, &
+          'largest step of a square')
+    end do
+  end subroutine test_square_limits
+
+  !> Irons: no frequency of a mesh is above the largest of its elements. Random meshes, free.
+  subroutine test_limit_of_mesh(corners_of_element)
+    integer, intent(in) :: corners_of_element
+    integer, parameter :: m = 4
+    real(wp) :: x(2, m*m), k(2*m*m, 2*m*m), mass(m*m), root(2*m*m), shift(2), ratio(2), h, &
+        smallest, omega2
+    integer :: i, j, trial
+    call make_element(corners_of_element, element)
+    do trial = 1, 20
+      call random_number(ratio)
+      call make_material('MAT_ELASTIC', 1, [density, 200.0_wp, 0.49_wp*ratio(1)], material)
+      do j = 0, m - 1
+        do i = 0, m - 1
+          call random_number(shift)
+          x(:, m*j + i + 1) = [i, j] + 0.45_wp*(shift - half)
+          x(1, m*j + i + 1) = x(1, m*j + i + 1)*(one + 3.0_wp*ratio(2))
+        end do
+      end do
+      k = zero
+      mass = zero
+      smallest = huge(smallest)
+      do j = 0, m - 2
+        do i = 1, m - 1
+          if (corners_of_element == 4) then
+            call add_element(m*j + [i, i + 1, i + 1 + m, i + m], x, k, mass, smallest)
+          else
+            call add_element(m*j + [i, i + 1, i + 1 + m], x, k, mass, smallest)
+            call add_element(m*j + [i, i + 1 + m, i + m], x, k, mass, smallest)
+          end if
+        end do
+      end do
+      root(1::2) = sqrt(mass)
+      root(2::2) = sqrt(mass)
+      do j = 1, size(k, 2)
+        k(:, j) = k(:, j)/(root*root(j))
+      end do
+      call largest_by_lapack(k, omega2)
+      h = 2.0_wp/sqrt(omega2)
+      call check_true(smallest <= h*(one + 1.0e-13_wp), element%name//': the limit is safe')
+      call check_true(smallest > 0.5_wp*h, element%name//': the limit is near that of the mesh')
+    end do
+  end subroutine test_limit_of_mesh
+
+  !> One element into stiffness and lumped mass of a mesh; smallest: of their steps so far.
+  subroutine add_element(node, x, k, mass, smallest)
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: k(:, :), mass(:), smallest
+    real(wp) :: ke(2*size(node), 2*size(node)), h
+    integer :: dof(2*size(node)), i
+    dof = [(2*node(i) - 1, 2*node(i), i=1, size(node))]
+    call element%stiffness(x(:, node), material%moduli(plane_strain), thickness, ke)
+    k(dof, dof) = k(dof, dof) + ke
+    mass(node) = mass(node) + element%lumped_mass(x(:, node), density, thickness)
+    call stable_step(element, x(:, node), density, material%moduli(plane_strain), thickness, h)
+    smallest = min(smallest, h)
+  end subroutine add_element
 
 end program test_element

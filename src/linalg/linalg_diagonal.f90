@@ -1,0 +1,123 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A diagonal matrix: lumped masses alone, as explicit schemes have them. Nothing is eliminated,
+!> so that no node has a place in an order, and the Schur complement of any interface is the
+!> diagonal of its own dofs.
+module linalg_diagonal
+  use base_checks, only: checks_on, assert_shape
+  use base_kinds, only: wp, i8, zero, one
+  use base_status, only: status_t, fail, status_numerical
+  use base_strings, only: to_text
+  use linalg_graph, only: graph_t, block_matrix_t
+  use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
+  implicit none
+  private
+
+  type, extends(solver_t), public :: diagonal_t
+    integer, allocatable :: last(:)          !< (n_interface) the interface nodes
+    real(wp), allocatable :: inverse(:, :)   !< (2, n) of the diagonal [L/F]
+    real(wp), allocatable :: work(:, :)      !< (2, n) A^-1 b, from forward to backward
+  contains
+    procedure :: analyse => diagonal_analyse
+    procedure :: factor => diagonal_factor
+    procedure :: forward => diagonal_forward
+    procedure :: solve_schur => diagonal_solve_schur
+    procedure :: flexibility => diagonal_flexibility
+    procedure :: backward => diagonal_backward
+  end type diagonal_t
+
+contains
+
+  !> Storage; there is no order.
+  subroutine diagonal_analyse(this, graph, last, status)
+    class(diagonal_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: last(:)
+    type(status_t), intent(inout) :: status
+    if (checks_on) call check_graph(graph, last, 'diagonal_analyse')
+    this%n = graph%n
+    this%n_interface = size(last)
+    this%last = last
+    this%info%order = 'none'
+    if (.not. allocated(this%work)) &
+        allocate (this%inverse(2, graph%n), this%work(2, graph%n))
+    this%info%factor_bytes = 16_i8*graph%n
+  end subroutine diagonal_analyse
+
+  !> The inverse of each entry; one that is not positive is a lost pivot.
+  subroutine diagonal_factor(this, graph, matrix, status)
+    class(diagonal_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    type(block_matrix_t), intent(in) :: matrix
+    type(status_t), intent(inout) :: status
+    integer :: i
+    if (checks_on) call check_matrix(this, graph, matrix, 'diagonal_factor')
+    do i = 1, this%n
+      if (.not. all(matrix%diagonal(:, i) > zero .and. &
+          matrix%diagonal(:, i) <= huge(zero))) then
+        call fail(status, status_numerical, 'lost pivot at node index '//to_text(i)// &
+            ': the effective matrix is not positive definite', &
+            hint='check mass and time step of the elements around it')
+        return
+      end if
+      this%inverse(:, i) = one/matrix%diagonal(:, i)
+    end do
+  end subroutine diagonal_factor
+
+  subroutine diagonal_forward(this, b, b_interface)
+    class(diagonal_t), intent(inout) :: this
+    real(wp), intent(in) :: b(:, :)
+    real(wp), intent(out) :: b_interface(:, :)
+    integer :: k
+    if (checks_on) call check_vectors(this, b, b_interface, 'diagonal_forward')
+    call multiply_entries(2*this%n, this%inverse, b, this%work)
+    do k = 1, this%n_interface
+      b_interface(:, k) = b(:, this%last(k))
+    end do
+  end subroutine diagonal_forward
+
+  !> c = a b, entry by entry.
+  pure subroutine multiply_entries(n, a, b, c)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: a(n), b(n)
+    real(wp), intent(out) :: c(n)
+    c = a*b
+  end subroutine multiply_entries
+
+  subroutine diagonal_solve_schur(this, x_interface)
+    class(diagonal_t), intent(in) :: this
+    real(wp), intent(inout) :: x_interface(:, :)
+    integer :: k
+    if (checks_on) call assert_shape(shape(x_interface), [2, this%n_interface], &
+        'diagonal_solve_schur', 'x_interface')
+    do k = 1, this%n_interface
+      x_interface(:, k) = this%inverse(:, this%last(k))*x_interface(:, k)
+    end do
+  end subroutine diagonal_solve_schur
+
+  subroutine diagonal_flexibility(this, f)
+    class(diagonal_t), intent(in) :: this
+    real(wp), intent(out) :: f(:, :)
+    integer :: i, k
+    if (checks_on) call assert_shape(shape(f), [2, 2]*this%n_interface, &
+        'diagonal_flexibility', 'f')
+    f = zero
+    do k = 1, this%n_interface
+      do i = 1, 2
+        f(2*k - 2 + i, 2*k - 2 + i) = this%inverse(i, this%last(k))
+      end do
+    end do
+  end subroutine diagonal_flexibility
+
+  subroutine diagonal_backward(this, x_interface, x)
+    class(diagonal_t), intent(inout) :: this
+    real(wp), intent(in) :: x_interface(:, :)
+    real(wp), intent(out) :: x(:, :)
+    integer :: k
+    if (checks_on) call check_vectors(this, x, x_interface, 'diagonal_backward')
+    x = this%work
+    do k = 1, this%n_interface
+      x(:, this%last(k)) = x_interface(:, k)
+    end do
+  end subroutine diagonal_backward
+
+end module linalg_diagonal

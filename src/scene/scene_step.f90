@@ -1,0 +1,117 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The step of explicit schemes: the limit that the elements set, and DT0 from it.
+module scene_step
+  use base_kinds, only: wp, zero, one
+  use base_strings, only: to_text
+  use deck_data, only: deck_t
+  use deck_problems, only: add_note, add_problem
+  use element_base, only: element_slot_t
+  use element_limit, only: stable_step
+  use element_registry, only: make_element
+  use model_data, only: model_t, controls_t, node_count
+  implicit none
+  private
+  public :: read_timestep, find_step
+
+  !> Two limits, or numbers of steps, are the same: the digits of an eigenvalue.
+  real(wp), parameter :: slack = 1.0e-12_wp
+
+contains
+
+  !> *CONTROL_TIMESTEP: what it cannot mean here.
+  subroutine read_timestep(deck, controls)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(in) :: controls
+    integer :: r
+    r = deck%next('CONTROL_TIMESTEP', 1, 0)
+    if (r == 0) return
+    if (.not. controls%is_explicit) then
+      call add_note(deck%problems, '*CONTROL_TIMESTEP has no effect: it concerns explicit '// &
+          'steps; mass scaling (DT2MS) must be blank')
+      return
+    end if
+    if (deck%next('CONTROL_TIMESTEP', 1, r) > 0) call deck%complain(deck%next( &
+        'CONTROL_TIMESTEP', 1, r), 'TSSFAC', &
+        'expected one *CONTROL_TIMESTEP in an explicit run')
+    if (.not. (deck%real(r, 'TSSFAC') > zero .and. deck%real(r, 'TSSFAC') <= one)) &
+        call deck%complain(r, 'TSSFAC', 'expected a number > 0 and <= 1: the limit of the '// &
+        'elements is the largest stable step')
+    if (abs(deck%real(r, 'LCTM')) > zero) call deck%complain(r, 'LCTM', &
+        'expected blank or 0: all steps of an explicit run are equal')
+    if (abs(deck%real(r, 'DTINIT')) > zero) call add_note(deck%problems, &
+        'DTINIT of *CONTROL_TIMESTEP has no effect: all steps are equal')
+  end subroutine read_timestep
+
+  !> DT0 against the limit of the elements; where the deck leaves it blank, the longest step of
+  !> which ENDTIM is a whole number, up to TSSFAC times the limit.
+  subroutine find_step(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    integer :: r
+    call find_limit(model)
+    associate (c => model%controls)
+      if (.not. c%dt > zero) then
+        call choose_step(deck, c)
+      else if (c%dt > c%step_limit*(one + slack)) then
+        r = deck%next('CONTROL_IMPLICIT_GENERAL', 1, 0)
+        call deck%complain(r, 'DT0', 'expected at most '//limit_text(c)// &
+            ', the limit of element '//to_text(c%limit_element)//': scheme '// &
+            trim(c%scheme)//' of *BIPACT_TIME is explicit', 'leave DT0 blank: then it is '// &
+            'TSSFAC of *CONTROL_TIMESTEP (0.9) times the limit')
+      end if
+    end associate
+  end subroutine find_step
+
+  !> The limit in seven digits, rounded down: who takes it as DT0 keeps to it.
+  function limit_text(controls) result(text)
+    type(controls_t), intent(in) :: controls
+    character(:), allocatable :: text
+    text = to_text(controls%step_limit*(one - 5.0e-7_wp))
+  end function limit_text
+
+  subroutine choose_step(deck, controls)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    real(wp) :: factor, steps
+    integer :: r
+    factor = 0.9_wp
+    r = deck%next('CONTROL_TIMESTEP', 1, 0)
+    if (r > 0) factor = deck%real(r, 'TSSFAC')
+    steps = controls%end_time/(factor*controls%step_limit)
+    if (.not. steps < 2.0e9_wp) then
+      call add_problem(deck%problems, deck%file(1)%path//': ENDTIM of *CONTROL_TERMINATION '// &
+          'asks for more than 2e9 steps of '//to_text(factor*controls%step_limit)// &
+          ', which element '//to_text(controls%limit_element)//' allows')
+      return
+    end if
+    controls%dt = controls%end_time/max(1, ceiling(steps*(one - slack)))
+    call add_note(deck%problems, 'DT0 is '//to_text(controls%dt)//': ENDTIM is a whole '// &
+        'number of such steps, and they are at most TSSFAC = '//to_text(factor)//' times '// &
+        limit_text(controls)//', the limit of element '//to_text(controls%limit_element))
+  end subroutine choose_step
+
+  !> The smallest of the largest stable steps of all elements, and the first that has it.
+  subroutine find_limit(model)
+    type(model_t), intent(inout) :: model
+    type(element_slot_t) :: element(3:4)
+    real(wp) :: h
+    integer :: e, n
+    call make_element(3, element(3)%item)
+    call make_element(4, element(4)%item)
+    associate (c => model%controls)
+      do e = 1, model%elements
+        n = node_count(model%connectivity(:, e))
+        associate (part => model%part(model%element_part(e)))
+          associate (material => model%material(part%material)%item)
+            call stable_step(element(n)%item, model%x(:, model%connectivity(1:n, e)), &
+                material%density, material%moduli(part%plane), part%thickness, h)
+          end associate
+        end associate
+        if (h >= c%step_limit*(one - slack)) cycle
+        c%step_limit = h
+        c%limit_element = model%element_id(e)
+      end do
+    end associate
+  end subroutine find_limit
+
+end module scene_step
