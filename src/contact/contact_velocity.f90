@@ -75,7 +75,7 @@ contains
     end do
   end subroutine correct_gaps
 
-  !> gap + lead v_n <= 0.
+  !> gap + lead v_n <= 0, to the tolerance of a touch: round-off does not lift a body.
   pure logical function touches(contact, rows, a, v)
     type(contact_t), intent(in) :: contact
     type(rows_t), intent(in) :: rows
@@ -83,7 +83,8 @@ contains
     real(wp), intent(in), contiguous :: v(:, :)
     real(wp) :: velocity(2)
     velocity = relative_displacement(rows, a, rows%point, v)
-    touches = rows%gap(a) + rows%allowance(a) + contact%rule%lead*velocity(1) <= zero
+    touches = rows%gap(a) + rows%allowance(a) + contact%rule%lead*velocity(1) &
+        <= contact%penetration_tolerance*rows%length(a)
   end function touches
 
   !> Whether row a acts, and its offsets (now e - before) v with e of the normal direction at
@@ -103,16 +104,16 @@ contains
       rows%offset_t(a) = (rule%now*e - rule%before)*velocity(2)
       if (is_active .neqv. rows%is_active(a)) contact%w_is_current = .false.
       rows%is_active(a) = is_active
-      contact%has_inactive = contact%has_inactive .or. .not. is_active
+      contact%was_on_velocities = .true.
     end associate
   end subroutine activate
 
   !> On positions all rows act, whatever the stage before has left.
   pure subroutine activate_all(contact)
     type(contact_t), intent(inout) :: contact
-    if (.not. contact%has_inactive) return
-    contact%has_inactive = .false.
-    contact%w_is_current = .false.
+    if (.not. contact%was_on_velocities) return
+    contact%was_on_velocities = .false.
+    if (.not. all(contact%rows%is_active(:contact%rows%n))) contact%w_is_current = .false.
     contact%rows%is_active = .true.
     contact%rows%offset_t = zero
   end subroutine activate_all

@@ -269,7 +269,7 @@ def statics():
             else:
                 # A state of rest stays: nothing is left to damp but round-off.
                 most = 1e-12 * g["internal"].max()
-                at_most(np.abs(g["damping"]).max(), most, name + ": damping")
+                at_most(np.abs(g["damping"]).max(), most, "%s, %s: damping" % (name, scheme))
 
 
 if __name__ == "__main__":

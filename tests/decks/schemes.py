@@ -6,7 +6,19 @@ import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
-from scenes import at_most, bars, check, deck, finish, run_text, table, two_blocks, within, words_of
+from scenes import (
+    at_most,
+    bars,
+    check,
+    deck,
+    every_keyword,
+    finish,
+    run_text,
+    table,
+    two_blocks,
+    within,
+    words_of,
+)
 
 # Random frictional scenes, loads and motions close to round-off for any scheme (conventions of
 # the ledger: 1e-11 of the largest term over a run).
@@ -16,16 +28,9 @@ STEP = 1.0e-12
 
 def every_scheme_closes_its_ledger():
     """The block of every keyword with friction, loads, motions, walls: each scheme, its ledger."""
-    with open(os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")) as file:
-        text = file.read()
     for scheme in words_of("SCHEME"):
-        deck = text
-        if scheme == "HHT":
-            lines = deck.split("\n")
-            at = lines.index("*CONTROL_IMPLICIT_DYNAMICS") + 2
-            lines[at] = "1,,,,,,,-0.3"
-            deck = "\n".join(lines)
-        folder, code, errors = run_text("ledger_" + scheme, deck, "-D", "scheme=" + scheme)
+        deck, options = every_keyword(scheme)
+        folder, code, errors = run_text("ledger_" + scheme, deck, *options)
         check(code == 0, "%s: exit code %d: %s" % (scheme, code, errors))
         rows = table(folder, "glstat")
         at_most(np.abs(rows["residual"]).max(), LEDGER, scheme + ": ledger")

@@ -141,21 +141,18 @@ def bitwise():
         changed = [k for k in before if before[k] != whole.get(k)]
         check(not changed, "%s: restart files change %s" % (name, changed))
         go_on_from_each(name, deck, folder, whole)
-    # Motions that begin and end, reactions, loads, walls, a last step that is cut.
-    with open(os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")) as file:
-        text = file.read()
-    comments = r"(?:\$[^\n]*\n)*"
-    text, one = re.subn(r"(\*BIPACT_RESTART\n%s).*" % comments, r"\g<1>        17,,99", text)
-    text, two = re.subn(r"(\*BIPACT_FIELD\n%s).*" % comments, r"\g<1>    0.0007", text)
-    check(one == 1 and two == 1, "the cards of restarts and fields are there")
-    deck, folder = write_deck("every", text), os.path.join(TMP, "every")
-    # HHT, which needs ALPHA on another card, is the method of GENALPHA.
-    names = [name for name in scenes.words_of("SCHEME") if name not in ("THETA", "HHT")]
-    schemes = [["-D", "scheme=" + name] for name in names]
-    for options in [[], ["-D", "tend=0.01985"], ["-D", "mu=0.0"]] + schemes:
-        code, errors, _ = bipact(deck, folder, "--quiet", *options)
+    # Motions that begin and end, reactions, loads, walls, a last step that is cut; every scheme.
+    runs = [("THETA", ["-D", "tend=0.01985"]), ("THETA", ["-D", "mu=0.0"])]
+    for scheme, more in runs + [(name, []) for name in scenes.words_of("SCHEME")]:
+        text, options = scenes.every_keyword(scheme)
+        comments = r"(?:\$[^\n]*\n)*"
+        text, one = re.subn(r"(\*BIPACT_RESTART\n%s).*" % comments, r"\g<1>        17,,99", text)
+        text, two = re.subn(r"(\*BIPACT_FIELD\n%s).*" % comments, r"\g<1>    0.0007", text)
+        check(one == 1 and two == 1, "the cards of restarts and fields are there")
+        deck, folder = write_deck("every", text), os.path.join(TMP, "every")
+        code, errors, _ = bipact(deck, folder, "--quiet", *options, *more)
         check(code == 0, "every keyword: " + errors)
-        go_on_from_each("every keyword", deck, folder, contents(folder), *options)
+        go_on_from_each("every keyword", deck, folder, contents(folder), *options, *more)
 
 
 def contact():

@@ -1,6 +1,7 @@
 """What the deck tests share: run a deck, read its tables, count the checks."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -55,6 +56,21 @@ def words_of(field):
     listed = subprocess.run([BIPACT, "--keywords"], capture_output=True, text=True).stdout
     row = next(x for x in listed.splitlines() if x.startswith("| %s |" % field))
     return row.split(" | ")[5].split(", ")
+
+
+def every_keyword(scheme):
+    """input/cards/every_keyword.k with what a scheme needs or refuses, and its option."""
+    with open(os.path.join(ROOT, "input", "cards", "every_keyword.k")) as file:
+        text = file.read()
+    if scheme == "HHT":    # ALPHA is a field of another card
+        lines = text.split("\n")
+        lines[lines.index("*CONTROL_IMPLICIT_DYNAMICS") + 2] = "1,,,,,,,-0.3"
+        text = "\n".join(lines)
+    if scheme == "CDLAGRANGE":    # explicit: its engine is no choice
+        text = text.replace("      LDLT      AUTO", "      AUTO      AUTO")
+    if scheme == "NSGENALPHA":
+        text = re.sub(r"(?m)^\*DAMPING_.*\n(?:[^*].*\n)*", "", text)
+    return text, ["-D", "scheme=" + scheme]
 
 
 def run_text(name, text, *options):
