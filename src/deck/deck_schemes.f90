@@ -14,6 +14,7 @@ module deck_schemes
     logical :: takes_rho = .false.         !< RHOINF
     logical :: takes_redist = .true.       !< massless contact nodes
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
+    logical :: is_two_step = .false.       !< its energy identity needs equal steps
   end type scheme_traits_t
 
   type(scheme_traits_t), parameter, public :: schemes(5) = [ &
@@ -21,7 +22,7 @@ module deck_schemes
       scheme_traits_t('NEWMARK', takes_gamma=.true., has_acceleration=.true.), &
       scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &
       scheme_traits_t('GENALPHA', takes_rho=.true., has_acceleration=.true.), &
-      scheme_traits_t('PAOLI', takes_redist=.false.)]
+      scheme_traits_t('PAOLI', takes_redist=.false., is_two_step=.true.)]
 
   public :: traits_of
 

@@ -10,6 +10,7 @@ module scene_controls
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t, controls_t, count_steps
   use scene_contact, only: contact_keyword
+  use scene_steps, only: read_steps
   implicit none
   private
   public :: read_controls, read_solver_options, note_keywords
@@ -59,6 +60,7 @@ contains
         call read_mass(deck, controls)
       end if
       call read_static(deck, controls)
+      call read_steps(deck, controls)
       call check_steps(deck, controls)
       r = deck%next('BIPACT_LEDGER', 1, 0)
       if (r == 0) return
