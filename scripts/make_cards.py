@@ -35,6 +35,8 @@ SCENE = (
         ("CONTROL_IMPLICIT_DYNAMICS", [{"IMASS": 1, "GAMMA": 0.5, "BETA": 0.25}]),
         ("CONTROL_IMPLICIT_SOLUTION", [{"NSOLVR": 1}]),
         ("BIPACT_TIME", [{"SCHEME": "&scheme"}]),
+        ("CONTROL_IMPLICIT_AUTO", [{"IAUTO": 0}]),
+        ("BIPACT_STEP", [{"MODE": "&mode"}]),
         ("BIPACT_STATIC", [{"SHIFT": "1.0E-3", "MAXPASS": 60}]),
         ("BIPACT_MASS", [{"TYPE": "LUMPED", "REDIST": 0}]),
         (
@@ -149,6 +151,7 @@ PARAMETERS = [
     ("Rv0", "1.0"),
     ("Rmu", "0.2"),
     ("Cscheme", "THETA"),
+    ("Cmode", "FIXED"),
 ]
 
 

@@ -31,7 +31,7 @@ module run_loop
   use time_ledger, only: evaluate_ledger, find_strain_energies
   implicit none
   private
-  public :: go_through_steps, advance
+  public :: go_through_steps, advance, advance_to
 
 contains
 

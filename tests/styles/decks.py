@@ -275,7 +275,7 @@ add(
     more=("CONTROL_IMPLICIT_SOLUTION", [{"nsolvr": 12}, {}, {}, {}]),
 )
 add(
-    "filled: automatic steps", "refused", filled, more=("CONTROL_IMPLICIT_AUTO", [{"iauto": 1}])
+    "filled: automatic steps", "refused", filled, more=("CONTROL_IMPLICIT_AUTO", [{"iauto": 2}])
 )
 add("filled: static", "refused", filled, dynamics=("CONTROL_IMPLICIT_DYNAMICS", [{"imass": 0}]))
 add(
