@@ -24,17 +24,15 @@ contains
   subroutine notice_warnings(run, progress)
     type(run_t), intent(inout) :: run
     type(progress_t), intent(in) :: progress
-    integer :: count(warning_kinds)
-    count = counts(run)
-    if (.not. any(count > 0 .and. run%first_warned < 0)) return
-    where (count > 0 .and. run%first_warned < 0)
-      run%first_warned = run%state%cycle
-      run%first_time = run%state%time
-    end where
-    if (count(overlap) > 0 .and. run%contact%tally%overlap_step == run%state%cycle - 1) &
-        run%first_time(overlap) = run%step%time_before
-    if (count(growth) > 0) run%first_warned(growth) = run%ledger%first_growth
-    if (count(overlap) > 0) run%first_warned(overlap) = run%contact%tally%overlap_step
+    logical :: is_new(warning_kinds)
+    is_new = counts(run) > 0 .and. run%first_warned < 0
+    if (.not. any(is_new)) return
+    where (is_new) run%first_warned = run%state%cycle
+    if (is_new(growth)) run%first_warned(growth) = run%ledger%first_growth
+    if (is_new(overlap)) run%first_warned(overlap) = run%contact%tally%overlap_step
+    ! What has been seen before this step was seen at its start.
+    where (is_new) run%first_time = merge(run%state%time, run%step%time_before, &
+        run%first_warned == run%state%cycle)
     call clear_progress(progress)
     call update_warnings(run)
     call show_warnings(run%warnings)

@@ -82,7 +82,8 @@ def event_is_exact():
 
 def every_scheme():
     """Every scheme of one step, with friction: its ledger closes with steps that are cut, and
-    with steps that are halved because a contact solve of few sweeps fails."""
+    with steps that are halved because a contact solve of few sweeps fails (as it may with the
+    shortest step too: then it closes up to there)."""
     for name, mode, make, times, sweeps in (
         ("corner", "EVENT", lambda: geometry.corner_on_edge(mu=0.3), 5, 10000),
         ("three bodies", "EVENT", geometry.three_bodies, 5, 10000),
@@ -95,7 +96,7 @@ def every_scheme():
             text = with_cards(coarse(make(), times, scheme), STEP % mode)
             text = with_cards(text, "*BIPACT_CONTACT\nGS,,%d\n" % sweeps)
             folder, code, errors = run_text("ledger", text.replace("STOP", "WARN"))
-            check(code == 0, what + errors)
+            check(code == 0 or "converge in %d" % sweeps in errors, what + errors)
             rows = closes(what, folder)
             changed = counts(folder)["steps_cut" if mode == "EVENT" else "steps_halved"]
             scenes.show("%s: %d" % (what, changed))
