@@ -109,7 +109,7 @@ contains
     call add_field(table, 'DTMIN', 'R10 [T] >0', 'shortest step of HALVE; blank = DT0/1024')
     call add_field(table, 'DTMAX', 'R10 fixed', 'no step is longer than DT0')
     call add_field(table, 'TOL', 'R10 fixed', 'steps by an estimate of their error')
-    call add_field(table, 'MAXHALF', 'I10 =10 >=0 <=20', 'most halvings of DT0')
+    call add_field(table, 'MAXHALF', 'I10 >=0 <=20', 'most halvings of DT0; blank = 10')
   end subroutine add_step_keyword
 
   !> Field files and restart files.

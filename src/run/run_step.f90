@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The length of the steps. FIXED: all DT0, but for a last one that is cut to the end. HALVE: a
 !> step that goes wrong is refused and done again with half its length, on the grid of DT0/2^k;
-!> after four good ones the next are twice as long. EVENT: a step in which an open contact closes
-!> is refused and ends at the touch, from where steps of DT0 go on. A refused step goes back
-!> bitwise through the archive, in memory.
+!> after four good ones the next are twice as long. EVENT: a step in which an open contact
+!> closes is refused and ends at the touch, from where steps of DT0 go on. A refused step goes
+!> back bitwise through the archive, in memory.
 module run_step
   use base_archive, only: archive_t, archive_save, archive_restore
   use base_kinds, only: wp, zero, one, half
@@ -65,7 +65,8 @@ contains
         real(run%state%cycle, wp)/run%model%controls%end_cycle)
   end function share_of_run
 
-  !> The step to be tried: its end t1 and its length; another length is another effective matrix.
+  !> The step to be tried: its end t1 and its length; another length is another effective
+  !> matrix.
   subroutine begin_step(run, t1, status)
     type(run_t), intent(inout) :: run
     real(wp), intent(out) :: t1

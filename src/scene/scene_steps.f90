@@ -47,7 +47,7 @@ contains
     if (mode == step_modes(step_event)) controls%step_mode = step_event
     call check_mode(deck, controls, r, 'MODE', 'MODE '//mode//' of *BIPACT_STEP')
     if (controls%step_mode == step_halve) then
-      controls%most_halvings = deck%integer(r, 'MAXHALF')
+      if (deck%is_given(r, 'MAXHALF')) controls%most_halvings = deck%integer(r, 'MAXHALF')
       if (deck%is_given(r, 'DTMIN')) call set_shortest(deck, controls, r)
       return
     end if

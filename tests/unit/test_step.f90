@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A step that is refused leaves nothing behind: with every scheme of one step, contact, friction,
-!> loads, motions, a static phase, the state goes back bit for bit, and a run in which every
-!> third step is solved and refused first is the run without. How lengths of steps follow.
+!> A step that is refused leaves nothing behind: with contact, friction, loads, motions, the
+!> state goes back bit for bit, and a run in which every third step is solved and refused first
+!> is the run without. How lengths of steps follow each other.
 program test_step
   use base_archive, only: archive_t, archive_save
   use base_kinds, only: wp
@@ -111,7 +111,7 @@ contains
   end subroutine compare
 
   !> Two refusals in the third step: quarters; after four good ones halves, where the grid of
-  !> halves has a point; after four more whole steps. The end of every step of DT0 is on its grid.
+  !> halves has a point; after four more whole steps. Every step of DT0 ends on its grid.
   subroutine test_lengths()
     type(run_t), allocatable :: run
     type(status_t) :: status
