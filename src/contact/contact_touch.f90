@@ -37,9 +37,9 @@ contains
     end do
   end subroutine find_touch
 
-  !> The gap [L] of the same contact at the end of another step from the same start, without the
-  !> reactions of contacts that this one has closed; that of a step that ends at the touch, zero,
-  !> where the contact is not found.
+  !> The gap [L] of the same contact at the end of another step from the same start, without
+  !> the reactions of contacts that this one has closed; that of a step that ends at the touch,
+  !> zero, where the contact is not found.
   pure real(wp) function gap_at_end(contact, touch)
     type(contact_t), intent(in) :: contact
     type(touch_t), intent(in) :: touch

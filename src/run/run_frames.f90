@@ -41,8 +41,8 @@ contains
     type(status_t) :: own
     logical :: first
     if (run%broken .or. status%code == status_file) return
-    if (.not. frame_is_due(run%model, run%fields, run%state%time, run%model%controls%dt, is_final)) &
-        return
+    if (.not. frame_is_due(run%model, run%fields, run%state%time, run%model%controls%dt, &
+        is_final)) return
     first = run%fields%frames == 0
     if (.not. first) then
       first = run%fields%segment_of(run%fields%frames) /= run%fields%segment

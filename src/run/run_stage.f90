@@ -48,7 +48,7 @@ contains
     if (run%plan%motions) call restore_motions(run)
   end subroutine solve_stage
 
-  !> Is this step one whose solve is refined? Steps that are halved or cut are more than planned.
+  !> Is this step one whose solve is refined? Steps that are halved are more than planned.
   pure logical function is_refined(run)
     type(run_t), intent(in) :: run
     is_refined = run%plan%refinement .and. run%state%cycle >= run%plan%refined_from
