@@ -36,6 +36,8 @@ SCENE = (
         ("CONTROL_IMPLICIT_SOLUTION", [{"NSOLVR": 1}]),
         ("CONTROL_TIMESTEP", [{"TSSFAC": 0.9}]),
         ("BIPACT_TIME", [{"SCHEME": "&scheme"}]),
+        ("CONTROL_IMPLICIT_AUTO", [{"IAUTO": 0}]),
+        ("BIPACT_STEP", [{"MODE": "&mode"}]),
         ("BIPACT_STATIC", [{"SHIFT": "1.0E-3", "MAXPASS": 60}]),
         ("BIPACT_MASS", [{"TYPE": "LUMPED", "REDIST": 0}]),
         (
@@ -155,6 +157,7 @@ PARAMETERS = [
     ("Rv0", "1.0"),
     ("Rmu", "0.2"),
     ("Cscheme", "THETA"),
+    ("Cmode", "FIXED"),
 ]
 
 

@@ -103,8 +103,29 @@ contains
     call add_card(table)
     call add_field(table, 'PSID', 'I10 fixed')
     call add_field(table, 'ANGLE', 'R10 note =90.0 0=d', 'of part rotations')
+    call add_auto(table)
     call add_solution(table)
   end subroutine add_frame
+
+  !> Steps that are halved where one is refused.
+  subroutine add_auto(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'CONTROL_IMPLICIT_AUTO', 'automatic steps', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'IAUTO', 'I10 =0 >=0 <=1', '1 = MODE HALVE of *BIPACT_STEP')
+    call add_field(table, 'ITEOPT', 'I10 ignored', 'wanted number of iterations')
+    call add_field(table, 'ITEWIN', 'I10 ignored', 'window around it')
+    call add_field(table, 'DTMIN', 'R10 =0.0 0=d [T] >=0', 'shortest step; 0 = DT0/1024')
+    call add_field(table, 'DTMAX', 'R10 =0.0 0=d [T]', 'longest step: 0 or DT0')
+    call add_field(table, 'DTEXP', 'R10 note', 'of a change to explicit steps')
+    call add_field(table, 'KFAIL', 'I10 note', 'of a change to explicit steps')
+    call add_field(table, 'KCYCLE', 'I10 note', 'of a change to explicit steps')
+    call add_card(table)
+    do k = 1, 8
+      call add_field(table, '-', 'R10 ignored')
+    end do
+  end subroutine add_auto
 
   subroutine add_solution(table)
     type(table_t), intent(inout) :: table

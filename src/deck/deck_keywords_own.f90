@@ -2,9 +2,10 @@
 !> The program's own keywords, *BIPACT_..., all optional, each at most once per deck.
 module deck_keywords_own
   use cone_types, only: deck_solver_names, local_names
-  use deck_names, only: table_keywords, table_timing, field_names, mass_names, choices
+  use deck_names, only: table_keywords, table_timing, field_names, mass_names, step_modes, &
+      choices
   use deck_schemes, only: schemes
-  use deck_table, only: table_t, add_keyword, add_card, add_field, keyword_refused
+  use deck_table, only: table_t, add_keyword, add_card, add_field
   use linalg_order, only: order_names
   use linalg_registry, only: engine_names
   implicit none
@@ -97,9 +98,22 @@ contains
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
     call add_field(table, 'REST', 'R10 >=0 <=1', &
         'restitution of its contact nodes; blank = REST of *BIPACT_TIME')
-    call add_keyword(table, 'BIPACT_STEP', '', class=keyword_refused)
+    call add_step_keyword(table)
     call add_storage_keywords(table)
   end subroutine add_own_keywords
+
+  !> Length of the steps.
+  subroutine add_step_keyword(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'BIPACT_STEP', 'length of the steps', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'MODE', 'W10 =FIXED '//choices(step_modes), &
+        'all DT0; halved where one is refused; cut where bodies touch')
+    call add_field(table, 'DTMIN', 'R10 [T] >0', 'shortest step of HALVE; blank = DT0/1024')
+    call add_field(table, 'DTMAX', 'R10 fixed', 'no step is longer than DT0')
+    call add_field(table, 'TOL', 'R10 fixed', 'steps by an estimate of their error')
+    call add_field(table, 'MAXHALF', 'I10 >=0 <=20', 'most halvings of DT0; blank = 10')
+  end subroutine add_step_keyword
 
   !> Field files and restart files.
   subroutine add_storage_keywords(table)

@@ -21,7 +21,6 @@ contains
     call add_other_outputs(table)
     call add_other_histories(table)
     call add_control_contact(table)
-    call add_control_auto(table)
     call add_control_solution(table)
     call add_control_shell(table)
   end subroutine add_skipped_keywords
@@ -196,18 +195,6 @@ contains
       call add_ignored(table, 8 - table%keyword(table%n)%card(k)%fields)
     end do
   end subroutine add_control_contact
-
-  subroutine add_control_auto(table)
-    type(table_t), intent(inout) :: table
-    call add_keyword(table, 'CONTROL_IMPLICIT_AUTO', &
-        'steps are those of DT0; automatic steps (IAUTO) are not available', required=1, &
-        noted=.true.)
-    call add_card(table)
-    call add_field(table, 'IAUTO', 'I10 fixed', 'steps are those of DT0')
-    call add_ignored(table, 7)
-    call add_card(table)
-    call add_ignored(table, 8)
-  end subroutine add_control_auto
 
   subroutine add_control_solution(table)
     type(table_t), intent(inout) :: table

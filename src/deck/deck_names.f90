@@ -21,6 +21,10 @@ module deck_names
   character(9), parameter, public :: field_names(10) = [character(9) :: 'U', 'V', 'FORCE', &
       'PRESSURE', 'GAP', 'STATUS', 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART']
 
+  !> Lengths of the steps: all DT0; halved where one is refused; cut where bodies touch.
+  integer, parameter, public :: step_fixed = 1, step_halve = 2, step_event = 3
+  character(5), parameter, public :: step_modes(3) = [character(5) :: 'FIXED', 'HALVE', 'EVENT']
+
   !> Mass matrices.
   character(10), parameter, public :: mass_names(3) = [character(10) :: 'CONSISTENT', &
       'LUMPED', 'DISPERSION']

@@ -21,6 +21,8 @@ module deck_schemes
     logical :: has_acceleration = .false.  !< prescribed ones (VAD 1), columns of nodout
     !> Whatever its fields say: lumped masses alone in the effective matrix, and a largest step.
     logical :: is_explicit = .false.
+    logical :: is_two_step = .false.       !< its energy identity needs equal steps
+    logical :: takes_event = .true.        !< steps cut at a touch: one stage, on positions
   end type scheme_traits_t
 
   type(scheme_traits_t), parameter, public :: schemes(*) = [ &
@@ -29,16 +31,18 @@ module deck_schemes
       scheme_traits_t('HHT', takes_alpha=.true., has_acceleration=.true.), &
       scheme_traits_t('GENALPHA', takes_rho=.true., has_acceleration=.true.), &
       scheme_traits_t('MOREAU', takes_theta=.true., takes_restitution=.true., &
-      takes_rule=.true., takes_redist=.false.), &
+      takes_rule=.true., takes_redist=.false., takes_event=.false.), &
       scheme_traits_t('PAOLI', takes_restitution=.true., takes_pbeta=.true., &
-      takes_redist=.false.), &
+      takes_redist=.false., is_two_step=.true.), &
       scheme_traits_t('CDLAGRANGE', takes_restitution=.true., takes_redist=.false., &
-      is_explicit=.true.), &
-      scheme_traits_t('THETAPV', takes_dispersion=.false., takes_redist=.false.), &
+      is_explicit=.true., is_two_step=.true.), &
+      scheme_traits_t('THETAPV', takes_dispersion=.false., takes_redist=.false., &
+      takes_event=.false.), &
       scheme_traits_t('NSGENALPHA', takes_rho=.true., takes_restitution=.true., &
       takes_dispersion=.false., takes_redist=.false., takes_damping=.false., &
-      has_acceleration=.true.), &
-      scheme_traits_t('CSNEWMARK', takes_dispersion=.false., takes_redist=.false.)]
+      takes_event=.false., has_acceleration=.true.), &
+      scheme_traits_t('CSNEWMARK', takes_dispersion=.false., takes_redist=.false., &
+      takes_event=.false.)]
 
   public :: traits_of
 

@@ -3,7 +3,7 @@
 !> Made once from the deck; nothing in it changes during the run.
 module model_data
   use base_kinds, only: wp
-  use deck_names, only: table_count, field_names
+  use deck_names, only: table_count, field_names, step_fixed
   use material_base, only: material_slot_t
   implicit none
   private
@@ -169,6 +169,9 @@ module model_data
     character(10) :: mass = 'CONSISTENT'
     logical :: redistribute = .false.
     real(wp) :: courant = -1.0_wp       !< of DISPERSION; < 0 = from dt
+    integer :: step_mode = step_fixed   !< step_... of deck_names
+    real(wp) :: shortest_step = 0.0_wp  !< of HALVE [T]
+    integer :: most_halvings = 10       !< of DT0
     integer :: ledger_every = 0
     integer :: dump_first = 0, dump_last = 0, dump_every = 1  !< steps; 0 = no dump
     real(wp) :: growth = 1.0e-9_wp

@@ -5,12 +5,15 @@ module run_data
   use assembly_bending, only: bending_t
   use assembly_part, only: part_t
   use assembly_system, only: system_t
-  use base_kinds, only: wp, zero, i8
+  use base_archive, only: archive_t
+  use base_kinds, only: wp, zero, one, i8
   use base_messages, only: messages_t
   use base_timers, only: timers_t
+  use contact_touch, only: touch_t
   use contact_types, only: contact_t
   use cone_types, only: cone_options_t
   use deck_data, only: deck_t
+  use deck_names, only: step_fixed
   use linalg_graph, only: block_matrix_t
   use linalg_solver, only: solver_t, solver_options_t
   use model_data, only: model_t
@@ -66,6 +69,30 @@ module run_data
     !> (2, n) that at its begin, only for schemes that count both [F]
     real(wp), allocatable :: force_before(:, :)
   end type damping_state_t
+  !> Where the run stands in its steps of DT0, which may be halved or cut (run_step).
+  type, public :: step_control_t
+    integer :: mode = step_fixed     !< step_... of deck_names
+    ! Steps of DT0 follow each other from origin on; the last one may be shorter.
+    real(wp) :: origin = zero        !< [T]
+    integer :: full_steps = 0
+    real(wp) :: last_step = zero     !< length of a shorter last one; 0 = none [T]
+    integer :: done = 0              !< of these steps
+    real(wp) :: share = zero         !< done of the one that has begun
+    real(wp) :: target = one         !< the same at the end of the step that is tried
+    integer :: tries = 0             !< of it that were refused
+    integer :: level = 0             !< HALVE: steps are DT0/2^level long
+    integer :: good = 0              !< of these in a row that were not refused
+    logical :: was_cut = .false.     !< EVENT: the step just done ends at a touch
+    type(touch_t) :: touch
+    logical :: is_static = .false.   !< in the static phase
+    real(wp) :: time_before = -one   !< start of the step just done [T]; < 0 at t = 0
+    integer :: halvings = 0, cuts = 0
+    ! Only where a step may be refused: the state at its start, with what was counted then.
+    type(archive_t), allocatable :: before
+    integer :: analyses = 0
+    integer :: faults(3) = 0
+    logical :: new_interface = .false.   !< the refused step had another interface
+  end type step_control_t
 
   type, public :: run_t
     type(deck_t) :: deck
@@ -74,6 +101,7 @@ module run_data
     type(cone_options_t) :: cone
     type(solver_options_t) :: solver_options
     type(state_t) :: state
+    type(step_control_t) :: step
     type(system_t) :: system
     class(scheme_t), allocatable :: scheme
     class(solver_t), allocatable :: solver
@@ -130,7 +158,9 @@ module run_data
     character(:), allocatable :: folder
     !> The one record of what there is to say: of the deck first, then of the run.
     type(messages_t) :: notes, warnings
-    integer :: first_warned(warning_kinds) = -1   !< step in which each kind was first seen
+    !> Step in which each kind was first seen, and its time [T]
+    integer :: first_warned(warning_kinds) = -1
+    real(wp) :: first_time(warning_kinds) = zero
     logical :: quiet = .false.
     integer :: log_unit = -1
   end type run_t

@@ -41,8 +41,8 @@ contains
     type(status_t) :: own
     logical :: first
     if (run%broken .or. status%code == status_file) return
-    if (.not. frame_is_due(run%model, run%fields, run%state%time, run%scheme%h, is_final)) &
-        return
+    if (.not. frame_is_due(run%model, run%fields, run%state%time, run%model%controls%dt, &
+        is_final)) return
     first = run%fields%frames == 0
     if (.not. first) then
       first = run%fields%segment_of(run%fields%frames) /= run%fields%segment
@@ -55,7 +55,7 @@ contains
     if (first .and. .not. failed(own)) call open_segment(run, own)
     if (.not. failed(own)) call run%storage%add_frame(run%state%time, run%fields%field, own)
     if (.not. failed(own)) &
-        call next_frame(run%model, run%state%time, run%scheme%h, run%fields)
+        call next_frame(run%model, run%state%time, run%model%controls%dt, run%fields)
     if (.not. failed(status)) status = own
     call run%timers%enter(phase_other)
   end subroutine keep_frame
@@ -79,7 +79,7 @@ contains
       options%single = r%single
       options%frames = expected_frames(run, min(run%model%controls%end_time, r%end) - r%begin)
       if (run%model%requests%restart%steps > 0) options%frames = min(options%frames, &
-          expected_frames(run, run%model%requests%restart%steps*run%scheme%h))
+          expected_frames(run, run%model%requests%restart%steps*run%model%controls%dt))
     end associate
     call run%storage%open_segment(join_path(run%folder, segment_name(run%fields%segment)), &
         run%mesh, run%fields%field, options, status)
@@ -90,7 +90,7 @@ contains
     type(run_t), intent(in) :: run
     real(wp), intent(in) :: span
     expected_frames = 1 + ceiling(min(1.0e6_wp, span/max(run%model%requests%field%interval, &
-        run%scheme%h)))
+        run%model%controls%dt)))
   end function expected_frames
 
   !> Ends the file that is open, if it has a frame; the next frame begins another one. The index
@@ -148,8 +148,8 @@ contains
       if (archive%mode == archive_save) return
       if (any(abs(times - old_times) > zero)) then
         fields%next = zero
-        if (told >= r%begin - 1.0e-9_wp*run%scheme%h) &
-            fields%next = next_due(r%interval, told, run%scheme%h)
+        if (told >= r%begin - 1.0e-9_wp*run%model%controls%dt) &
+            fields%next = next_due(r%interval, told, run%model%controls%dt)
       end if
       if (.not. are_kept) fields%segment = next_segment(run%folder)
       if (.not. any(abs(content - old_content) > zero)) return

@@ -14,6 +14,7 @@ module run_loop
   use contact_search, only: update_lists, relist_outrun
   use contact_stage, only: evaluate_contact
   use contact_work, only: add_contact_step, contact_work_t
+  use deck_names, only: step_halve
   use output_tables, only: any_due, energies_due
   use run_damping, only: update_damping, keep_damping, damping_work
   use run_data, only: run_t
@@ -25,6 +26,7 @@ module run_loop
   use run_setup, only: start_dynamics
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
+  use run_step, only: begin_step, judge_step, note_faults, at_end, starts_dynamics, share_of_run
   use run_two_stages, only: close_stage, add_stage_works, find_stage_reactions
   use time_base, only: mass_product
   use run_tables, only: write_rows
@@ -32,7 +34,7 @@ module run_loop
   use time_ledger, only: evaluate_ledger, find_strain_energies
   implicit none
   private
-  public :: go_through_steps, advance
+  public :: go_through_steps, advance, advance_to
 
 contains
 
@@ -41,44 +43,44 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     type(progress_t) :: progress
-    integer :: steps
     logical :: stopped
-    steps = run%plan%full_steps
-    if (run%plan%last_step > zero) steps = steps + 1
     if (run%static_steps > 0 .and. .not. allocated(run%restarted)) &
         call load_at_start(run, status)
     if (run%plan%restarts .and. .not. allocated(run%restarted)) &
         call keep_restart(run, .false., status)
-    call write_due_output(run, run%state%cycle == steps .or. failed(status), status)
-    do while (run%state%cycle < steps .and. .not. failed(status))
-      if (run%state%cycle == run%static_steps .and. run%static_steps > 0) &
-          call end_static_phase(run, status)
-      if (run%state%cycle == run%plan%full_steps) call cut_step(run, status)
+    call write_due_output(run, at_end(run) .or. failed(status), status)
+    do while (.not. (at_end(run) .or. failed(status)))
+      if (starts_dynamics(run)) call end_static_phase(run, status)
       call advance(run, status)
       stopped = stop_asked()
-      stopped = stopped .and. run%state%cycle < steps
+      stopped = stopped .and. .not. at_end(run)
       if (run%plan%restarts) call keep_restart(run, stopped, status)
-      call write_due_output(run, run%state%cycle == steps .or. failed(status), status)
+      call write_due_output(run, at_end(run) .or. failed(status), status)
       call notice_warnings(run, progress)
       if (stopped) call fail(status, status_stopped, 'stopped by a signal', &
           hint=how_to_go_on(run))
-      call show_progress(progress, run%quiet, run%state%cycle, steps, run%state%time)
+      call show_progress(progress, run%quiet, run%state%cycle, run%state%time, &
+          share_of_run(run))
     end do
     call clear_progress(progress)
   end subroutine go_through_steps
 
-  !> One step, stage by stage: free motion, contact on its interface, whole motion, new state,
-  !> ledger.
+  !> One step; a shorter one as long as it is refused.
   subroutine advance(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     real(wp) :: t1
-    t1 = merge(run%model%controls%end_time, (run%state%cycle + 1)*run%model%controls%dt, &
-        run%state%cycle == run%plan%full_steps)
-    call advance_to(run, t1, status)
+    logical :: is_refused
+    do
+      call begin_step(run, t1, status)
+      if (.not. failed(status)) call advance_to(run, t1, status)
+      call judge_step(run, is_refused, status)
+      if (.not. is_refused) exit
+    end do
   end subroutine advance
 
-  !> The step that ends at t1.
+  !> The step that ends at t1, stage by stage: free motion, contact on its interface, whole
+  !> motion, new state, ledger.
   subroutine advance_to(run, t1, status)
     type(run_t), intent(inout) :: run
     real(wp), intent(in) :: t1
@@ -156,6 +158,7 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     call start_dynamics(run, status)
+    run%step%is_static = .false.
     run%first_cycle = run%state%cycle
     run%ledger%staggered = run%scheme%staggered
     run%ledger%evaluated = -1
@@ -220,6 +223,7 @@ contains
     call update_lists(run%model, run%contact, run%state%u, run%state%du, run%state%v, &
         run%largest_motion, run%scheme%h, run%state%cycle, t1, new_interface, status)
     if (run%contact%keeps_before) call copy_rows(run%contact%rows, run%contact%before)
+    if (run%step%mode == step_halve) call note_faults(run)
     if (failed(status)) call add_place(status, moment(run))
     if (new_interface) call factor_matrix(run, .true., status)
   end subroutine prepare_contact
@@ -344,7 +348,7 @@ contains
     type(status_t), intent(inout) :: status
     logical :: energies, due
     real(wp) :: h
-    h = run%scheme%h
+    h = run%model%controls%dt
     energies = energies_due(run%tables, run%state%time, h, is_final) .or. is_final
     if (run%model%controls%ledger_every > 0) &
         energies = energies .or. mod(run%state%cycle, run%model%controls%ledger_every) == 0
@@ -432,13 +436,5 @@ contains
         'the energy is not finite (NaN or Inf)', place=moment(run))
     call run%timers%enter(phase_other)
   end subroutine monitor
-
-  !> The last step is shorter: another effective matrix.
-  subroutine cut_step(run, status)
-    type(run_t), intent(inout) :: run
-    type(status_t), intent(inout) :: status
-    call run%scheme%set_step(run%plan%last_step)
-    call factor_matrix(run, .false., status)
-  end subroutine cut_step
 
 end module run_loop

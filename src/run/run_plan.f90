@@ -6,7 +6,7 @@ module run_plan
   use base_strings, only: to_text
   use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
       table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
-      table_timing
+      table_timing, step_halve, step_event
   use model_data, only: model_t, count_steps
   use run_data, only: plan_t
   implicit none
@@ -65,6 +65,17 @@ contains
       call add_feature(plan, 'steps', .true., to_text(plan%full_steps)//' of '//to_text(c%dt))
       call add_feature(plan, 'cut step', plan%last_step > zero, 'ENDTIM/DT0 = '// &
           to_text(c%end_time/c%dt))
+      select case (c%step_mode)
+      case (step_halve)
+        call add_feature(plan, 'step control', .true., 'MODE HALVE: a step that is refused '// &
+            'is halved, at most '//to_text(c%most_halvings)//' times, not below '// &
+            to_text(c%shortest_step))
+      case (step_event)
+        call add_feature(plan, 'step control', .true., 'MODE EVENT: a step in which an '// &
+            'open contact closes ends at the touch')
+      case default
+        call add_feature(plan, 'step control', .false., 'MODE FIXED: all steps are DT0')
+      end select
     end associate
   end subroutine plan_steps
 

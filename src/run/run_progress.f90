@@ -19,12 +19,13 @@ module run_progress
 
 contains
 
-  !> Time, step, percent and remaining seconds, at most four times a second.
-  subroutine show_progress(progress, quiet, cycle, steps, time)
+  !> Time, step, percent and remaining seconds, at most four times a second; share: of the run
+  !> that is done.
+  subroutine show_progress(progress, quiet, cycle, time, share)
     type(progress_t), intent(inout) :: progress
     logical, intent(in) :: quiet
-    integer, intent(in) :: cycle, steps
-    real(wp), intent(in) :: time
+    integer, intent(in) :: cycle
+    real(wp), intent(in) :: time, share
     integer(i8) :: now, rate
     real(wp) :: elapsed
     if (.not. progress%known) then
@@ -39,8 +40,8 @@ contains
     progress%shown = now
     elapsed = real(now - progress%start, wp)/real(rate, wp)
     write (error_unit, '(a)', advance='no') achar(13)//'time '//to_text(time)//'  step '// &
-        to_text(cycle)//'  '//to_text(nint(100.0_wp*cycle/steps))//' %  '// &
-        to_text(nint(elapsed*(steps - cycle)/max(1, cycle)))//' s left     '
+        to_text(cycle)//'  '//to_text(nint(100.0_wp*share))//' %  '// &
+        to_text(nint(min(1.0e9_wp, elapsed*(1.0_wp - share)/share)))//' s left     '
     flush (error_unit)
   end subroutine show_progress
 

@@ -11,6 +11,7 @@ module run_report
   use contact_rows, only: row_edge, row_vertex, row_second, row_wall
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
+  use deck_names, only: step_fixed
   use run_data, only: run_t
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
@@ -101,6 +102,8 @@ contains
     associate (l => run%ledger, c => run%contact%tally)
       write (unit, '(a)') 'steps '//to_text(run%state%cycle)//', time '// &
           to_text(run%state%time)//', CPU '//to_text(totals%cpu)//' s'
+      if (run%step%mode /= step_fixed) write (unit, '(a)') 'steps halved '// &
+          to_text(run%step%halvings)//', cut at a touch '//to_text(run%step%cuts)
       write (unit, '(a)') 'factorisations '//to_text(run%factors)//', solves '// &
           to_text(run%solves)//', contact searches '//to_text(c%searches)// &
           ', contact solves '//to_text(c%solves)//', sweeps '//to_text(c%sweeps)

@@ -12,17 +12,14 @@ module run_restart
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
-  use contact_archive, only: exchange_contact
   use deck_echo, only: write_echo
   use deck_source, only: source_file_t, load_file
-  use model_state, only: exchange_state
   use output_storage, only: restart_header_t
   use output_tables, only: flush_tables, exchange_tables
   use run_arguments, only: command_to_go_on
-  use run_damping, only: exchange_damping
   use run_data, only: run_t
   use run_frames, only: end_segment, exchange_frames
-  use time_ledger, only: exchange_ledger
+  use run_step, only: at_end, exchange_step, exchange_moment
   implicit none
   private
   public :: start_restarts, keep_restart, exchange_run, time_told, list_restarts, &
@@ -72,8 +69,11 @@ contains
     logical, intent(in) :: stopped
     type(status_t), intent(inout) :: status
     logical :: due
-    if (failed(status) .or. run%state%cycle > run%plan%full_steps) return
-    due = run%state%cycle == run%plan%full_steps
+    if (failed(status)) return
+    associate (s => run%step)
+      if (s%done > s%full_steps .or. (s%done == s%full_steps .and. s%share > zero)) return
+      due = s%done == s%full_steps .or. at_end(run)
+    end associate
     if (restart_asked()) due = .true.
     associate (r => run%model%requests%restart)
       due = due .or. (stopped .and. r%on_signal)
@@ -174,28 +174,17 @@ contains
     type(archive_t), intent(inout) :: archive
     type(run_t), intent(inout) :: run
     type(origin_t), intent(inout) :: origin
-    logical :: are_kept
-    origin%full_steps = run%plan%full_steps
-    origin%last_step = run%plan%last_step
+    origin%full_steps = run%step%full_steps
+    origin%last_step = run%step%last_step
+    call exchange_step(archive, run%step)
     call archive%exchange('origin.full_steps', origin%full_steps)
     call archive%exchange('origin.last_step', origin%last_step)
     origin%left_out = pairs_left_out(run)
     call archive%exchange('origin.left_out', origin%left_out)
-    call exchange_state(archive, run%state)
-    if (run%plan%contact) call exchange_contact(archive, run%contact, origin%new_nodal)
-    call exchange_ledger(archive, run%ledger)
+    call exchange_moment(archive, run, origin%new_nodal, origin%new_reactions)
     call exchange_bending(archive, run%bending)
     call exchange_tables(archive, run%tables)
     call exchange_frames(archive, run, time_told(run))
-    call archive%agree('reaction.', run%plan%reactions, are_kept)
-    origin%new_reactions = run%plan%reactions .and. .not. are_kept
-    if (are_kept) then
-      call archive%exchange('reaction.end', run%reaction)
-      call archive%exchange('reaction.mean', run%mean_reaction)
-    end if
-    if (run%plan%motions) call archive%exchange('run.active', run%active_motion)
-    if (run%plan%damping) call exchange_damping(archive, run)
-    if (allocated(run%unbalanced)) call archive%exchange('static.unbalanced', run%unbalanced)
     call exchange_progress(archive, run)
   end subroutine exchange_run
 
@@ -225,7 +214,7 @@ contains
     run%restart_files = counts(5)
     run%rotations = counts(6)
     call archive%exchange('run.first_warned', run%first_warned)
-    call archive%exchange('run.largest_motion', run%largest_motion)
+    call archive%exchange('run.first_time', run%first_time)
     call archive%exchange('run.rotation', run%rotation)
     call archive%exchange('run.looked', run%looked)
   end subroutine exchange_progress
@@ -234,7 +223,7 @@ contains
   !> negative at the start.
   pure real(wp) function time_told(run)
     type(run_t), intent(in) :: run
-    time_told = (run%state%cycle - 1)*run%model%controls%dt
+    time_told = run%step%time_before
   end function time_told
 
   !> What to do after a signal has stopped the run.

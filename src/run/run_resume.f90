@@ -21,10 +21,11 @@ module run_resume
   use output_tables, only: check_tables, retime_tables
   use run_data, only: run_t
   use run_frames, only: check_segments
-  use run_motion, only: hold_active, start_reactions, find_smooth_reactions
+  use run_motion, only: hold_active, start_reactions
   use run_restart, only: origin_t, exchange_run, list_restarts, time_told, pairs_left_out
   use run_operator, only: factor_matrix
   use run_setup, only: start_dynamics
+  use run_step, only: exchange_step, plan_from_here
   implicit none
   private
   public :: resume
@@ -91,11 +92,12 @@ contains
     if (failed(status)) return
     may_try_older = .false.
     call check_deck(run, path, header, status)
+    if (.not. failed(status)) call find_step(run, archive, status)
     if (.not. failed(status)) call check_end(run, path, header, status)
     if (failed(status)) return
     may_try_older = .true.
     run%restarted = path
-    if (run%static_steps > 0 .and. header%cycle > run%static_steps) then
+    if (run%static_steps > 0 .and. .not. run%step%is_static) then
       call start_dynamics(run, status)
       run%first_cycle = run%static_steps
       run%ledger%staggered = run%scheme%staggered
@@ -108,7 +110,8 @@ contains
         'cannot restart from "'//path//'": to this ENDTIM a contact acts that takes parts '// &
         'from the card of all parts, which had them in the run so far', &
         hint='start anew, or end the run before that contact is born')
-    call retime_tables(run%tables, run%model, time_told(run), run%scheme%h, run%notes)
+    call retime_tables(run%tables, run%model, time_told(run), run%model%controls%dt, &
+        run%notes)
     call begin_late_tables(run, origin)
     call note_cut_step(run, origin)
     call check_tables(run%tables, run%model, run%folder, status)
@@ -117,8 +120,18 @@ contains
         run%contact, run%state%u, run%state%du, run%state%cycle, status)
     if (run%plan%motions) call hold_active(run)
     if (origin%new_reactions) call start_reactions(run)
-    if (allocated(run%smooth_reaction)) call find_smooth_reactions(run)
   end subroutine restore
+
+  !> Where the run stands in its steps, and those to its end, which may be another one now.
+  subroutine find_step(run, archive, status)
+    type(run_t), intent(inout) :: run
+    type(archive_t), intent(inout) :: archive
+    type(status_t), intent(inout) :: status
+    call archive%rewind(archive_restore)
+    call exchange_step(archive, run%step)
+    if (.not. failed(status)) status = archive%status
+    call plan_from_here(run)
+  end subroutine find_step
 
   !> A good file of this version.
   subroutine load(run, path, header, archive, status)
@@ -179,8 +192,14 @@ contains
     type(restart_header_t), intent(in) :: header
     type(status_t), intent(inout) :: status
     character(:), allocatable :: what
+    logical :: is_before
     call check_step(run, path, header, status)
-    if (header%cycle <= run%plan%full_steps) return
+    associate (s => run%step, c => run%model%controls)
+      is_before = s%done < s%full_steps .or. &
+          (s%done == s%full_steps .and. .not. s%share > zero)
+      if (c%end_cycle > 0) is_before = is_before .and. header%cycle <= c%end_cycle
+    end associate
+    if (is_before) return
     associate (c => run%model%controls)
       what = 'ENDTIM '//to_text(c%end_time)
       if (c%end_cycle == run%plan%full_steps) what = 'ENDCYC '//to_text(c%end_cycle)
@@ -220,16 +239,16 @@ contains
     type(table_file_t), intent(inout) :: file
     real(wp), intent(in) :: interval
     file%no_row_at = run%state%cycle
-    file%next = next_due(interval, run%state%time, run%scheme%h)
+    file%next = next_due(interval, run%state%time, run%model%controls%dt)
   end subroutine leave_out_row
 
   !> Tells where the run so far went on by a cut step that this one does not have.
   subroutine note_cut_step(run, origin)
     type(run_t), intent(inout) :: run
     type(origin_t), intent(in) :: origin
-    if (origin%full_steps /= run%state%cycle .or. .not. origin%last_step > zero) return
-    if (run%plan%full_steps == origin%full_steps .and. &
-        .not. abs(run%plan%last_step - origin%last_step) > zero) return
+    if (origin%full_steps /= run%step%done .or. .not. origin%last_step > zero) return
+    if (run%step%full_steps == origin%full_steps .and. &
+        .not. abs(run%step%last_step - origin%last_step) > zero) return
     call add_message(run%notes, '', 'restart: the run so far ended with a step cut to '// &
         to_text(origin%last_step)//'; this one goes on from the file before it, step '// &
         to_text(run%state%cycle)//', and that step is done anew')
@@ -242,6 +261,7 @@ contains
     type(status_t), intent(inout) :: status
     integer :: counts(2)
     counts = [run%factors, run%analyses]
+    if (run%state%h_last > zero) call run%scheme%set_step(run%state%h_last)
     call factor_matrix(run, .true., status)
     run%factors = counts(1)
     run%analyses = counts(2)

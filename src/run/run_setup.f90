@@ -70,6 +70,10 @@ contains
     call make_system(run%model, massless, run%system, status)
     if (failed(status)) return
     run%static_steps = static_steps(run%model%controls, run%plan%full_steps)
+    run%step%mode = run%model%controls%step_mode
+    run%step%is_static = run%static_steps > 0
+    run%step%full_steps = run%plan%full_steps
+    run%step%last_step = run%plan%last_step
     call make_scheme(run%model%controls, run%static_steps > 0, run%scheme, status)
     if (failed(status)) return
     if (run%static_steps > 0) call make_shift(run%model, run%system, run%shift, &

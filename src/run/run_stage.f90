@@ -47,10 +47,16 @@ contains
     if (run%plan%contact) call add_contact(run, acting, status)
     call run%solver%backward(run%x_interface, run%x)
     run%solves = run%solves + 1
-    if (run%state%cycle >= run%plan%refined_from) call refine(run, stage, acting, status)
+    if (is_refined(run)) call refine(run, stage, acting, status)
     if (run%plan%motions) call restore_motions(run)
     if (stage > 1 .and. allocated(run%scheme%free)) call find_free(run, acting)
   end subroutine solve_stage
+
+  !> Is this step one whose solve is refined? Steps that are halved are more than planned.
+  pure logical function is_refined(run)
+    type(run_t), intent(in) :: run
+    is_refined = run%plan%refinement .and. run%state%cycle >= run%plan%refined_from
+  end function is_refined
 
   !> b = b - force_weight K (U0 + force_lead V0), U0 and V0 at the start of the stage.
   subroutine subtract_forces(run, stage)
@@ -137,7 +143,7 @@ contains
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
     if (run%plan%reactions) call keep_right_side(run)
-    if (run%state%cycle >= run%plan%refined_from) run%b_kept = run%b
+    if (is_refined(run)) run%b_kept = run%b
     if (run%plan%motions) then
       call impose_motions(run, stage, t1)
     else if (run%system%any_fixed) then

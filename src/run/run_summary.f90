@@ -233,6 +233,8 @@ contains
     call json%open('{', 'counts')
     call json%put(run%factors, 'factors')
     call json%put(run%solves, 'solves')
+    call json%put(run%step%halvings, 'steps_halved')
+    call json%put(run%step%cuts, 'steps_cut')
     associate (t => run%contact%tally)
       call json%put(t%searches, 'contact_searches')
       call json%put(t%solves, 'contact_solves')

@@ -26,9 +26,9 @@ contains
       if (.not. run%tables%file(k)%on) cycle
       if (run%tables%file(k)%no_row_at == run%state%cycle) cycle
       if (.not. (is_final .or. row_is_due(run%tables%file(k), run%state%time, &
-          run%scheme%h))) cycle
+          run%model%controls%dt))) cycle
       call write_one(run, k, status)
-      call rows_done(run%tables%file(k), run%state%time, run%scheme%h)
+      call rows_done(run%tables%file(k), run%state%time, run%model%controls%dt)
     end do
   end subroutine write_rows
 

@@ -7,6 +7,7 @@ module run_warnings
   use base_kinds, only: wp, zero, one
   use base_messages, only: messages_t, add_message, set_message
   use base_strings, only: to_text
+  use deck_names, only: step_fixed
   use run_data, only: run_t, warning_kinds
   use run_progress, only: progress_t, clear_progress
   implicit none
@@ -23,12 +24,15 @@ contains
   subroutine notice_warnings(run, progress)
     type(run_t), intent(inout) :: run
     type(progress_t), intent(in) :: progress
-    integer :: count(warning_kinds)
-    count = counts(run)
-    if (.not. any(count > 0 .and. run%first_warned < 0)) return
-    where (count > 0 .and. run%first_warned < 0) run%first_warned = run%state%cycle
-    if (count(growth) > 0) run%first_warned(growth) = run%ledger%first_growth
-    if (count(overlap) > 0) run%first_warned(overlap) = run%contact%tally%overlap_step
+    logical :: is_new(warning_kinds)
+    is_new = counts(run) > 0 .and. run%first_warned < 0
+    if (.not. any(is_new)) return
+    where (is_new) run%first_warned = run%state%cycle
+    if (is_new(growth)) run%first_warned(growth) = run%ledger%first_growth
+    if (is_new(overlap)) run%first_warned(overlap) = run%contact%tally%overlap_step
+    ! What has been seen before this step was seen at its start.
+    where (is_new) run%first_time = merge(run%state%time, run%step%time_before, &
+        run%first_warned == run%state%cycle)
     call clear_progress(progress)
     call update_warnings(run)
     call show_warnings(run%warnings)
@@ -69,7 +73,7 @@ contains
     type(run_t), intent(in) :: run
     integer, intent(in) :: k
     character(:), allocatable :: text, since
-    since = moment(run, run%first_warned(k))
+    since = moment(run%first_warned(k), run%first_time(k))
     associate (tally => run%contact%tally)
       select case (k)
       case (growth)
@@ -141,7 +145,7 @@ contains
           one_decimal(sum%modes/max(sum%exact, 1.0e-3_wp*sum%modes))// &
           ' times what bending costs: it gives way about '// &
           percent(excess(sum))//' too little under a load; most at '// &
-          moment(run, run%bending%step(p))
+          step_of_look(run, run%bending%step(p))
     end associate
     if (any(run%model%element_part == p .and. run%model%connectivity(3, :) &
         == run%model%connectivity(4, :))) then
@@ -167,16 +171,24 @@ contains
     text = trim(buffer)
   end function one_decimal
 
-  !> A step and its time.
-  function moment(run, step) result(text)
+  !> A step and its time [T].
+  function moment(step, time) result(text)
+    integer, intent(in) :: step
+    real(wp), intent(in) :: time
+    character(:), allocatable :: text
+    text = 'step '//to_text(step)//', time '//to_text(time)
+  end function moment
+
+  !> A step that was looked at, with its time where all steps are equal.
+  function step_of_look(run, step) result(text)
     type(run_t), intent(in) :: run
     integer, intent(in) :: step
     character(:), allocatable :: text
-    real(wp) :: time
-    time = step*run%model%controls%dt
-    if (step > run%plan%full_steps) time = run%model%controls%end_time
-    text = 'step '//to_text(step)//', time '//to_text(time)
-  end function moment
+    text = 'step '//to_text(step)
+    if (run%step%mode /= step_fixed) return
+    text = moment(step, merge(run%model%controls%end_time, step*run%model%controls%dt, &
+        step > run%plan%full_steps))
+  end function step_of_look
 
   !> Overlaps at the start that were taken for touches, and what closing overlaps gave back.
   subroutine note_touches(run)

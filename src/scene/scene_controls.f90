@@ -11,7 +11,8 @@ module scene_controls
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t, controls_t, count_steps
   use scene_contact, only: contact_keyword
-  use scene_step, only: read_timestep
+  use scene_explicit, only: read_timestep
+  use scene_steps, only: read_steps
   implicit none
   private
   public :: read_controls, read_solver_options, note_keywords
@@ -65,6 +66,7 @@ contains
       call read_static(deck, controls)
       call read_timestep(deck, controls)
       if (.not. (controls%is_explicit .or. is_implicit)) call refuse_explicit(deck, controls)
+      call read_steps(deck, controls)
       call check_steps(deck, controls)
       r = deck%next('BIPACT_LEDGER', 1, 0)
       if (r == 0) return

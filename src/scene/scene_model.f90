@@ -19,7 +19,7 @@ module scene_model
   use scene_storage, only: read_storage
   use scene_parts, only: read_materials, read_parts
   use scene_sets, only: read_sets
-  use scene_step, only: find_step
+  use scene_explicit, only: find_step
   implicit none
   private
   public :: make_scene

@@ -570,7 +570,7 @@ BEYOND = [
     (
         "automatic steps",
         "more",
-        cards("CONTROL_IMPLICIT_AUTO", fixed(1)),
+        cards("CONTROL_IMPLICIT_AUTO", fixed(2)),
         "field IAUTO",
     ),
     (

@@ -184,6 +184,50 @@ def contact():
     short_purse()
 
 
+def steps():
+    """The same from within a step that is halved, and from the touch at which one is cut: a
+    restart file after every step, with every scheme of one step, with motions that begin and
+    end, from a static phase."""
+    cuts = "*BIPACT_STEP\nEVENT,\n"
+    halves = "*BIPACT_STEP\nHALVE,\n*BIPACT_CONTACT\nGS,,%d\n"
+    for scheme in ("THETA,0.5", "NEWMARK,", "GENALPHA,"):
+        for name, scene, times, cards in (
+            ("cut corner", geometry.corner_on_edge(mu=0.3), 10, cuts),
+            ("cut bodies", geometry.three_bodies(0.6), 20, cuts),
+            ("halved L", geometry.corner_of_l((4, 3), (-3.0, -2.0), 0.6), 10, halves % 12),
+            ("halved bodies", geometry.three_bodies(0.6), 20, halves % 100),
+            ("halved slider", geometry.pressed_slider(), 80, "*BIPACT_STEP\nHALVE,\n"),
+        ):
+            if name in ("halved bodies", "halved slider") and scheme != "THETA,0.5":
+                continue  # the one fails, the other halves no step
+            name += " " + scheme
+            count = scene.steps // times
+            scene.dt, scene.steps, scene.scheme = scene.dt * scene.steps / count, count, scheme
+            scene.every = scene.dt / 1000
+            text = with_cards(scene.text().replace("STOP", "WARN"), cards + RESTART % (1, "", 99))
+            deck, folder = write_deck("steps", text), os.path.join(TMP, "steps")
+            code, errors, _ = bipact(deck, folder, "--quiet")
+            check(code == 0, "%s: %s" % (name, errors))
+            length = scenes.table(folder, "glstat")["dt"]
+            kinds = len(set(np.round(np.log2(length), 9)))
+            check(kinds > 1, name + ": all steps are equal")
+            show("%s: %d steps of %d lengths" % (name, len(length) - 1, kinds))
+            go_on_from_each(name, deck, folder, contents(folder))
+    path = os.path.join(os.environ["ROOT"], "input", "cards", "every_keyword.k")
+    with open(path) as file:
+        text = file.read()
+    comments = r"(?:\$[^\n]*\n)*"
+    text, one = re.subn(r"(\*BIPACT_RESTART\n%s).*" % comments, r"\g<1>         9,,99", text)
+    text, two = re.subn(r"(\*CONTROL_IMPLICIT_DYNAMICS\n%s).*" % comments, r"\g<1>1,,,0.002", text)
+    check(one == 1 and two == 1, "the cards of restarts and of inertia are there")
+    deck, folder = write_deck("every", text), os.path.join(TMP, "every")
+    for scheme in ("THETA", "NEWMARK"):
+        options = ["-D", "mode=EVENT", "-D", "scheme=" + scheme]
+        code, errors, _ = bipact(deck, folder, "--quiet", *options)
+        check(code == 0, "every keyword: " + errors)
+        go_on_from_each("every keyword", deck, folder, contents(folder), *options)
+
+
 def short_purse():
     """Restart files all over a run whose purse is short in some steps; runs that end there tell
     how many of these came before."""

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The step of explicit schemes: the limit that the elements set, and DT0 from it.
-module scene_step
+module scene_explicit
   use base_kinds, only: wp, zero, one
   use base_strings, only: to_text
   use deck_data, only: deck_t
@@ -114,4 +114,4 @@ contains
     end associate
   end subroutine find_limit
 
-end module scene_step
+end module scene_explicit
