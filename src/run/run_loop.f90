@@ -91,7 +91,7 @@ contains
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
-    call run%scheme%begin_step(run%state%cycle - run%first_cycle)
+    call run%scheme%begin_step(run%state%cycle - run%first_cycle, run%state%h_last)
     do stage = 1, size(run%scheme%stage)
       if (stage > 1 .and. run%scheme%stage(stage)%only_in_contact .and. .not. acting) exit
       if (allocated(run%other)) call use_operator(run, stage)

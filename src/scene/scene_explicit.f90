@@ -107,11 +107,38 @@ contains
                 material%density, material%moduli(part%plane), part%thickness, h)
           end associate
         end associate
+        h = damped_step(model, model%element_part(e), h)
         if (h >= c%step_limit*(one - slack)) cycle
         c%step_limit = h
         c%limit_element = model%element_id(e)
       end do
     end associate
   end subroutine find_limit
+
+  !> The limit h [T] of an element of a part with the damping of the deck, which acts with the
+  !> velocity of the half step before: h^2 omega^2 + 2 h (a + b omega^2) <= 4 with
+  !> omega = 2/h of the undamped one, a [1/T] by mass, at its largest, b [T] by stiffness.
+  pure real(wp) function damped_step(model, part, h)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: part
+    real(wp), intent(in) :: h
+    real(wp) :: omega2, rate, a
+    integer :: k
+    damped_step = h
+    omega2 = 4.0_wp/h**2
+    rate = zero
+    if (allocated(model%stiffness_damping)) rate = model%stiffness_damping(part)*omega2
+    if (allocated(model%mass_damping)) then
+      do k = 1, size(model%mass_damping)
+        associate (card => model%mass_damping(k))
+          if (.not. any(card%part == part)) cycle
+          a = card%factor*maxval(abs(card%scale))
+          if (card%curve > 0) a = a*maxval(abs(model%curve(card%curve)%o))
+          rate = rate + a
+        end associate
+      end do
+    end if
+    if (rate > zero) damped_step = 4.0_wp/(rate + sqrt(rate**2 + 4.0_wp*omega2))
+  end function damped_step
 
 end module scene_explicit

@@ -44,13 +44,13 @@ contains
       call read_elements(deck, model, maps)
     end if
     if (deck%problems%count == 0) call check_mesh(deck, model)
-    if (deck%problems%count == 0 .and. model%controls%is_explicit) call find_step(deck, model)
     if (deck%problems%count == 0) then
       call read_sets(deck, model, maps)
       call read_curves(deck, model, maps)
       call read_supports(deck, model, maps)
       call read_loads(deck, model, maps)
       call read_damping(deck, model, maps)
+      if (deck%problems%count == 0 .and. model%controls%is_explicit) call find_step(deck, model)
       call read_motions(deck, model, maps)
       call read_initial_velocities(deck, model, maps)
       call read_contacts(deck, model, maps)

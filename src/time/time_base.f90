@@ -134,10 +134,12 @@ module time_base
 
 contains
 
-  !> Most schemes do the same in every step. cycle: number of steps done.
-  subroutine nothing_to_begin(this, cycle)
+  !> Most schemes do the same in every step. cycle: number of steps done, the last one h_last
+  !> long [T].
+  subroutine nothing_to_begin(this, cycle, h_last)
     class(scheme_t), intent(inout) :: this
     integer, intent(in) :: cycle
+    real(wp), intent(in) :: h_last
   end subroutine nothing_to_begin
 
   !> x.M y [F L for velocities].

@@ -25,8 +25,9 @@ module time_paoli
   type, extends(scheme_t), public :: paoli_t
     real(wp) :: beta = 0.25_wp
     logical :: on_velocities = .false.
-    logical :: is_first = .true.
-    real(wp), allocatable :: ku(:, :), kv(:, :), v_start(:, :)   !< K U0, K V0, V0: first step
+    real(wp) :: h_before = zero         !< length of the step before; 0: there is none [T]
+    !> K U0, K V0, V0 of the first step; work space of a cut one
+    real(wp), allocatable :: ku(:, :), kv(:, :), v_start(:, :)
   contains
     procedure :: begin_step => paoli_begin_step
     procedure :: set_step => paoli_set_step
@@ -39,39 +40,58 @@ module time_paoli
 
 contains
 
-  subroutine paoli_begin_step(this, cycle)
+  !> The weights of the step: in the first one no time has passed before it, and a last one
+  !> that is cut is shorter than the one before.
+  subroutine paoli_begin_step(this, cycle, h_last)
     class(paoli_t), intent(inout) :: this
     integer, intent(in) :: cycle
-    if (this%is_first .neqv. cycle == 0) then
-      this%is_first = cycle == 0
-      call this%set_step(this%h)
-    end if
+    real(wp), intent(in) :: h_last
+    real(wp) :: before
+    before = merge(zero, h_last, cycle == 0)
+    if (.not. abs(before - this%h_before) > zero) return
+    this%h_before = before
+    call weigh(this)
   end subroutine paoli_begin_step
 
-  !> The matrix is the same in the first step.
+  !> The matrix depends on h alone.
   pure subroutine paoli_set_step(this, h)
     class(paoli_t), intent(inout) :: this
     real(wp), intent(in) :: h
-    real(wp) :: share
     this%h = h
-    share = merge(half, one, this%is_first)
-    this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, load_weight=[share, zero], &
-        force_weight=share, force_lead=-this%beta*h/share)]
-    if (this%beta > zero) then
-      this%stage(1)%c_c = half/h
-      this%stage(1)%rate_weight(1) = share - half
-    else    ! A stays diagonal
-      this%stage(1)%rate_weight(1) = share
-    end if
-    this%stage(1)%rule = contact_rule_t(level=level_position, factor=share, lead=h)
-    if (this%on_velocities) this%stage(1)%rule = contact_rule_t(level=level_velocity, &
-        factor=share, now=h, safe_share=one)
-    this%weight_now = share
-    this%load_work_weight = [share, zero]
     this%staggered%on = .true.
     this%staggered%share = this%beta - 0.25_wp
     this%dissipates = .true.
+    call weigh(this)
   end subroutine paoli_set_step
+
+  !> Forces act over (h_before + h)/2, a share of h.
+  pure subroutine weigh(this)
+    class(paoli_t), intent(inout) :: this
+    real(wp) :: share, back
+    associate (h => this%h)
+      share = half*(one + this%h_before/h)
+      back = this%h_before
+      if (is_first(this)) back = h
+      this%stage = [stage_t(c_m=one/h**2, c_k=this%beta, load_weight=[share, zero], &
+          force_weight=share, force_lead=-this%beta*back/share)]
+      if (this%beta > zero) then
+        this%stage(1)%c_c = half/h
+        this%stage(1)%rate_weight(1) = share - half
+      else    ! A stays diagonal
+        this%stage(1)%rate_weight(1) = share
+      end if
+      this%stage(1)%rule = contact_rule_t(level=level_position, factor=share, lead=back)
+      if (this%on_velocities) this%stage(1)%rule = contact_rule_t(level=level_velocity, &
+          factor=share, now=h, safe_share=one)
+      this%weight_now = share
+      this%load_work_weight = [share, zero]
+    end associate
+  end subroutine weigh
+
+  pure logical function is_first(this)
+    class(paoli_t), intent(in) :: this
+    is_first = .not. this%h_before > zero
+  end function is_first
 
   subroutine paoli_start(this, model, system, state, status)
     class(paoli_t), intent(inout) :: this
@@ -116,16 +136,38 @@ contains
   end subroutine paoli_update
 
   !> Only in the first step: what the energy at t = 0 has more than that of the scheme before,
-  !> h U0.K V0/2 - beta h^2 V0.K V0/2 - w.K U0/2.
+  !> h U0.K V0/2 - beta h^2 V0.K V0/2 - w.K U0/2; and in a last one that is cut.
   real(wp) function paoli_dissipation(this, system, state)
     class(paoli_t), intent(inout) :: this
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     paoli_dissipation = zero
-    if (.not. this%is_first) return
-    paoli_dissipation = half*this%h*sum(this%v_start*this%ku) &
-        - half*this%beta*this%h**2*sum(this%v_start*this%kv) - half*sum(this%conjugate*this%ku)
+    if (is_first(this)) then
+      paoli_dissipation = half*this%h*sum(this%v_start*this%ku) &
+          - half*this%beta*this%h**2*sum(this%v_start*this%kv) &
+          - half*sum(this%conjugate*this%ku)
+    else if (abs(this%h - this%h_before) > zero) then
+      paoli_dissipation = lost_by_cut(this, system, state)
+    end if
   end function paoli_dissipation
+
+  !> A step of another length h than the one before, g: what its internal forces do on w, less
+  !> the change of the internal energy, is
+  !>   (h - g)/2 {beta V-.K (h V+ - g V-) - (V+ - V-).K U_n/2}.
+  real(wp) function lost_by_cut(this, system, state) result(lost)
+    class(paoli_t), intent(inout) :: this
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    associate (h => this%h, g => this%h_before, v_before => this%v_start)
+      v_before = 2.0_wp*this%conjugate/h - state%v
+      this%ku = zero
+      this%kv = zero
+      call subtract_internal_force(system, -one, state%u - state%du, this%ku)
+      call subtract_internal_force(system, -one, state%du - g*v_before, this%kv)
+      lost = half*(h - g)*(this%beta*sum(v_before*this%kv) &
+          - half*sum((state%v - v_before)*this%ku))
+    end associate
+  end function lost_by_cut
 
   !> x = h V+, V+ given or from U_{n+1}.
   pure real(wp) function paoli_given_motion(this, stage, state, direction, node, kind, value)

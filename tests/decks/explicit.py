@@ -86,6 +86,35 @@ def energy():
         refused_above(scene, name, limit, element)
 
 
+def damped():
+    """Damping acts with the velocity of the half step before, which makes the limit lower: at the
+    limit that the note tells (TSSFAC 1) the energy never rises; the limit without damping is
+    refused."""
+    scene = thrown_block(5, 0.3, 0.0)
+    plain, code, errors = run_text("undamped", with_step(scene, 1.0e-6, 10))
+    check(code == 0, "undamped: exit code %d: %s" % (code, errors))
+    free, omega = noted(plain)[1], 2.0 / noted(plain)[1]
+    stiff, mass = 0.5 / omega, 0.3 * omega
+    cards = "*DAMPING_PART_STIFFNESS\n%d,%r\n" % (1, -stiff) + "*DAMPING_GLOBAL\n0,%r\n" % mass
+    scene.dt, scene.steps, scene.every = 0.5 * free, 4000, free
+    text = scene.text().replace("*END", "*CONTROL_TIMESTEP\n0.0,1.0\n" + cards + "*END")
+    text = GENERAL.sub("*CONTROL_IMPLICIT_GENERAL\n0,\n", text)
+    folder, code, errors = run_text("damped", text)
+    check(code == 0, "damped: exit code %d: %s" % (code, errors))
+    rate = mass + stiff * omega**2
+    exact = 4.0 / (rate + np.sqrt(rate**2 + 4.0 * omega**2))
+    at_most(abs(noted(folder)[1] / exact - 1.0), 2.0e-6, "damped: the limit, in seven digits")
+    rows = table(folder, "glstat")
+    balance = rows["total"] - rows["external"]
+    largest = max(np.abs(rows["external"]).max(), rows["initial"].max())
+    at_most((balance - rows["initial"]).max() / largest, 1.0e-9, "damped: energy above the start")
+    at_most(np.abs(rows["residual"]).max(), LEDGER, "damped: ledger")
+    check(rows["damping"][-1] > 0.01 * largest, "damped: damping does work")
+    text = GENERAL.sub("*CONTROL_IMPLICIT_GENERAL\n0,%.17g\n" % free, text)
+    _, code, errors = run_text("over", text)
+    check(code == 2 and "the limit of element" in errors, "damped: the undamped limit: " + errors)
+
+
 def refused_above(scene, name, limit, element):
     """DT0 at the limit runs, 1 % above it is refused, with the element and the cards."""
     _, code, errors = run_text("over", with_step(scene, limit, 10, "%.17g" % (1.01 * limit)))

@@ -19,6 +19,7 @@ import make_scenes
 LEDGER, ONE_STEP = 1.0e-11, 1.0e-12
 STEP = "*BIPACT_STEP\n%s,\n"
 SCHEMES = ("THETA,0.5", "THETA,0.7,0.6", "NEWMARK,", "HHT,", "GENALPHA,,,,0.8")
+ON_VELOCITIES = ("MOREAU,0.5", "THETAPV,", "NSGENALPHA,", "CSNEWMARK,")    # no EVENT
 
 
 def with_cards(text, cards):
@@ -91,7 +92,7 @@ def every_scheme():
         ("L", "HALVE", lambda: geometry.corner_of_l((4, 3), (-3.0, -2.0), 0.6), 5, 12),
         ("three bodies", "HALVE", lambda: geometry.three_bodies(0.6), 20, 50),
     ):
-        for scheme in SCHEMES:
+        for scheme in SCHEMES + (ON_VELOCITIES if mode == "HALVE" else ()):
             what = "%s, %s, %s" % (name, scheme, mode)
             text = with_cards(coarse(make(), times, scheme), STEP % mode)
             text = with_cards(text, "*BIPACT_CONTACT\nGS,,%d\n" % sweeps)
