@@ -1,0 +1,331 @@
+"""Histories of a run as quantities, distances between them, and what a set of runs says of the
+truth: a reference with a bar, observed orders, and which sequences converge to it.
+
+A quantity is a history of numbers, of one of two kinds:
+
+    state   values at common times; distance = rms over times and ids, over the range
+    force   an impulse; distance = sum |fm - mean of the other over the same two steps| dt over the
+            other's sum of |force| dt, fm = mean of two steps, as the tables print it
+
+No exact solution is used here. A sequence is one scheme, mass and ratio of step to mesh on finer
+and finer meshes (or one scheme and mass with smaller and smaller steps on one mesh). With d the
+distance of its last two runs and p the order, its last run is wrong by about d/(r^p - 1)
+(Richardson 1911; Roache 1994), r = ratio of refinement. The reference is the mean of the last
+runs of the best sequences, of different schemes and masses; its bar is SAFETY times the larger
+of their expected error and of their distance from it."""
+
+import math
+from dataclasses import dataclass, field
+
+import startup  # noqa: F401  before what is no part of Python
+import numpy as np
+
+from tables import read_run
+
+SAFETY = 1.25  # factor of a bar of three grids (Roache 1994, grid convergence index)
+LEAST_ORDER = 0.2  # below it the error halves in five refinements at best: no convergence
+ORDERS = (0.5, 1.0)  # across an impact: what an order may be taken for
+ENERGIES = "kinetic internal total external motion friction damping".split()
+
+
+# ---------------------------------------------------------------- quantities
+
+
+@dataclass
+class Quantity:
+    """times (n) [T]; values (n, ids, components): the state, or the impulse of a force.
+
+    group: quantities of one group share their range, as energies of one table do."""
+
+    kind: str
+    times: np.ndarray
+    values: np.ndarray
+    group: str = ""
+
+
+def by_ids(table, columns, first_of=None):
+    """(times, values (n, ids, components)) of a table; None where rows are missing."""
+    keep = table if first_of is None else table.select(**first_of)
+    ids = [keep[name] for name in keep.id_columns]
+    times = np.unique(keep["time"])
+    count = len(keep) // max(1, len(times))
+    if not len(keep) or count * len(times) != len(keep):
+        return None
+    if ids and not all(np.array_equal(i, np.tile(i[:count], len(times))) for i in ids):
+        return None
+    return times, keep.vectors(*columns).reshape(len(times), count, len(columns))
+
+
+def velocity_of(times, place):
+    """Mean velocity between rows; at the first row that of the first interval."""
+    speed = np.diff(place, axis=0) / np.diff(times)[:, None, None]
+    return np.concatenate([speed[:1], speed])
+
+
+def quantities(folder, same_mesh=True):
+    """{name: Quantity} of the tables of a run. What belongs to elements or to contact nodes is
+    taken only where all runs have the same ones."""
+    found = {}
+
+    def add(name, kind, table, columns, group="", first_of=None, change=None):
+        pair = by_ids(table, columns, first_of)
+        if pair is not None and len(pair[0]) > 2 and np.isfinite(pair[1]).all():
+            times, values = pair
+            values = change(times, values) if change else values
+            found[name] = Quantity(kind, times, values, group)
+
+    table = read_run(folder, "glstat")
+    if table is not None:
+        for name in ENERGIES:
+            add("glstat " + name, "state", table, [name], "energy")
+    table = read_run(folder, "matsum")
+    if table is not None:
+        for name in ("kinetic", "internal"):
+            add("matsum " + name, "state", table, [name], "part energy")
+        add("matsum velocity", "state", table, ["vx", "vy"])
+    table = read_run(folder, "nodout")
+    if table is not None:
+        add("nodout displacement", "state", table, ["ux", "uy"])
+        add("nodout velocity", "state", table, ["ux", "uy"], change=velocity_of)
+    for name, one in (("rcforc", {"side": 1}), ("rwforc", None)):
+        table = read_run(folder, name)
+        if table is not None:
+            add(name + " force", "force", table, ["ix", "iy"], first_of=one)
+            add(name + " impulse", "state", table, ["ix", "iy"], first_of=one)
+    table = read_run(folder, "spcforc")
+    if table is not None:
+        add("spcforc force", "force", table, ["fx", "fy"], change=impulse_of_sum)
+    table = read_run(folder, "sleout")
+    if table is not None:
+        for name in ("frictionwork",):
+            add("sleout " + name, "state", table, [name], "energy")
+    table = read_run(folder, "elout")
+    if same_mesh and table is not None:
+        add("elout stress", "state", table, ["sxx", "syy", "sxy"])
+    return found
+
+
+def impulse_of_sum(times, forces):
+    """Impulse of the sum over all nodes of forces that are means of steps."""
+    total = forces.sum(axis=1, keepdims=True)
+    steps = np.diff(times, prepend=times[0])[:, None, None]
+    return np.cumsum(total * steps, axis=0)
+
+
+def at_times(quantity, times):
+    """Values at other times, between rows by a straight line."""
+    t, values = quantity.times, quantity.values
+    if np.array_equal(t, times):
+        return values
+    flat = values.reshape(len(t), -1)
+    found = np.column_stack([np.interp(times, t, column) for column in flat.T])
+    return found.reshape(len(times), *values.shape[1:])
+
+
+# ---------------------------------------------------------------- distances
+
+
+def size(values):
+    """Length over ids and components, for each time."""
+    return np.sqrt(np.sum(values**2, axis=(1, 2)))
+
+
+def spread_of(quantity):
+    """What distances are divided by: range of a state (the largest of its ids), or the sum of
+    |force| dt."""
+    if quantity.kind == "force":
+        return float(np.sum(size(np.diff(quantity.values, axis=0))))
+    extent = np.ptp(quantity.values, axis=0)
+    return float(np.max(np.sqrt(np.sum(extent**2, axis=1)), initial=0.0))
+
+
+def distance(one, other, unit):
+    """Distance of a run's quantity from another's, or from a reference or the truth."""
+    if one.values.shape[1:] != other.values.shape[1:]:
+        return math.nan
+    if one.kind == "force":
+        t = one.times
+        start = t[np.maximum(np.arange(1, len(t)) - 2, 0)]
+        back = np.maximum(np.arange(1, len(t)) - 2, 0)
+        span = (t[1:] - start)[:, None, None]
+        mine = (one.values[1:] - one.values[back]) / span
+        theirs = (at_times(other, t[1:]) - at_times(other, start)) / span
+        return float(np.sum(size(mine - theirs) * np.diff(t)) / unit)
+    times = one.times if len(one.times) <= len(other.times) else other.times
+    off = size(at_times(one, times) - at_times(other, times))
+    return float(np.sqrt(np.mean(off**2) / one.values.shape[1]) / unit)
+
+
+def mean_of(quantities_, weights):
+    """Weighted mean history, at the times of the finest."""
+    times = max((q.times for q in quantities_), key=len)
+    values = sum(w * at_times(q, times) for q, w in zip(quantities_, weights))
+    first = quantities_[0]
+    return Quantity(first.kind, times, values / sum(weights), first.group)
+
+
+# ---------------------------------------------------------------- sequences
+
+
+@dataclass
+class Sequence:
+    """Runs of one scheme and mass, coarse to fine. `widths`: mesh or step of each."""
+
+    method: tuple  # (scheme, mass, ratio)
+    runs: list
+    widths: list
+    steps: list = field(default_factory=list)  # distance of each run from the next
+    order: float = math.nan  # of the distances
+    expected: float = math.inf  # error of the last run, from them
+    errors: list = field(default_factory=list)  # distance from the reference
+    slope: float = math.nan  # order of the errors
+    converges: bool = False
+
+
+@dataclass
+class Estimate:
+    """What the study says of one quantity."""
+
+    name: str
+    unit: float
+    sequences: list
+    reference: Quantity = None
+    bar: float = math.inf
+    members: list = field(default_factory=list)
+    order: float = math.nan
+    errors: dict = field(default_factory=dict)  # {run: error}
+    bars: dict = field(default_factory=dict)  # {run: bar}
+
+
+def slope(widths, errors):
+    """Order: slope of log error over log width."""
+    good = [(w, e) for w, e in zip(widths, errors) if e > 0.0 and math.isfinite(e)]
+    if len(good) < 2:
+        return math.nan
+    x, y = np.log(np.array(good)).T
+    return float(np.polyfit(x, y, 1)[0])
+
+
+def measure_steps(sequence, histories, unit):
+    """Distances of neighbours and their order."""
+    q = [histories[run] for run in sequence.runs]
+    sequence.steps = [distance(a, b, unit) for a, b in zip(q, q[1:])]
+    sequence.order = slope(sequence.widths[:-1], sequence.steps)
+
+
+def expect(sequence, order):
+    """Error of the last run from its distance to the run before."""
+    ratio = sequence.widths[-2] / sequence.widths[-1]
+    sequence.expected = sequence.steps[-1] / (ratio**order - 1.0)
+
+
+def best_of_methods(sequences):
+    """One sequence for each scheme and mass: that of the least expected error."""
+    best = {}
+    for s in sorted(sequences, key=lambda s: s.expected):
+        best.setdefault(s.method[:2], s)
+    return list(best.values())
+
+
+def choose_members(sequences, one_mesh):
+    """Sequences whose last runs make the reference. On finer meshes: those expected to be
+    within twice the best, three methods at least; on one mesh the best of each mass, whose
+    differences are all that tells of the error of the mesh."""
+    best = best_of_methods(sequences)
+    if one_mesh:
+        masses = {}
+        for s in best:
+            masses.setdefault(s.method[1], s)
+        return list(masses.values())
+    return [s for k, s in enumerate(best) if k < 3 or s.expected <= 2.0 * best[0].expected]
+
+
+def estimate(name, sequences, histories, one_mesh=False, unit=None):
+    """Reference, bar, orders, errors of one quantity; histories {run: Quantity}."""
+    runs = list(histories)
+    finest = max((histories[r] for r in runs), key=lambda q: len(q.times))
+    found = Estimate(name, unit or spread_of(finest), sequences)
+    for s in sequences:
+        measure_steps(s, histories, found.unit)
+    steady = [s for s in sequences if len(s.runs) > 2 and s.order >= LEAST_ORDER]
+    if not steady:
+        return found
+    found.order = float(np.clip(np.median([s.order for s in steady]), *ORDERS))
+    for s in steady:
+        expect(s, found.order)
+    found.members = choose_members(steady, one_mesh)
+    last = [histories[s.runs[-1]] for s in found.members]
+    weights = [1.0 / max(s.expected, 1.0e-12) ** 2 for s in found.members]
+    if one_mesh:
+        weights = [1.0] * len(last)
+    found.reference = mean_of(last, weights)
+    apart = [distance(q, found.reference, found.unit) for q in last]
+    found.bar = SAFETY * max(max(apart), min(s.expected for s in found.members))
+    judge(found, histories)
+    return found
+
+
+def judge(found, histories):
+    """Errors against the reference, with their bars; which sequences converge to it."""
+    for run, history in histories.items():
+        error = distance(history, found.reference, found.unit)
+        found.errors[run] = error
+        found.bars[run] = found.bar * (1.0 + error)  # the unit is known to the bar, too
+    for s in found.sequences:
+        s.errors = [found.errors[run] for run in s.runs]
+        s.slope = slope(s.widths, s.errors)
+        s.converges = len(s.runs) > 1 and (
+            s.errors[-1] <= found.bar
+            or (s.slope >= LEAST_ORDER and s.errors[-1] < s.errors[0])
+        )
+
+
+def rescale(found, unit):
+    """The same estimate in another unit."""
+    ratio, found.unit = found.unit / unit, unit
+    found.bar *= ratio
+    for s in found.sequences:
+        s.steps = [d * ratio for d in s.steps]
+        s.errors = [e * ratio for e in s.errors]
+        s.expected *= ratio
+    for run, error in found.errors.items():
+        found.errors[run] = error * ratio
+        found.bars[run] = found.bar * (1.0 + error * ratio)
+
+
+def estimate_all(sequences, histories, one_mesh=False):
+    """{name: Estimate}. sequences: () -> fresh list of Sequence; histories {run: {name:
+    Quantity}}. Units come from the references, those of a group from its largest one."""
+    last = {s.runs[-1] for s in sequences()}
+    names = list(dict.fromkeys(n for found in histories.values() for n in found))
+    units, found = {}, {}
+    for name in names:
+        spreads = [spread_of(histories[r][name]) for r in last if name in histories[r]]
+        group = group_of(histories, name)
+        units[group] = max(units.get(group, 0.0), float(np.median(spreads or [0.0])))
+    for name in names:
+        having = {r: q[name] for r, q in histories.items() if name in q}
+        unit = units[group_of(histories, name)]
+        if unit == 0.0 or all(np.ptp(q.values) <= 1.0e-9 * unit for q in having.values()):
+            if not is_conserved(name) or unit == 0.0:
+                continue
+        usable = [s for s in sequences() if all(r in having for r in s.runs)]
+        found[name] = estimate(name, usable, having, one_mesh, unit)
+    units = {}
+    for name, e in found.items():
+        if e.reference is not None:
+            group = group_of(histories, name)
+            units[group] = max(units.get(group, 0.0), spread_of(e.reference))
+    for name, e in found.items():
+        if units.get(group_of(histories, name)):
+            rescale(e, units[group_of(histories, name)])
+    return found
+
+
+def is_conserved(name):
+    """Is a quantity of interest where it does not change?"""
+    return name == "glstat total"
+
+
+def group_of(histories, name):
+    return next(q[name].group or name for q in histories.values() if name in q)
