@@ -89,8 +89,8 @@ class Study(Sweep):
         self.coarsest = max(run.dt for run in runs)
 
     def words(self, run):
-        return [run.scheme.replace(" ", "_"), run.mass_name, "dt=%.6g" % run.dt,
-                "mesh=%d" % run.mesh]
+        scheme = run.scheme.replace(" ", "_")
+        return [scheme, run.mass_name, "dt=%.6g" % run.dt, "mesh=%d" % run.mesh]
 
     def deck_of(self, run):
         return os.path.abspath(os.path.join(self.folder(run), "deck.k"))
@@ -100,6 +100,13 @@ class Study(Sweep):
 
     def is_its(self, summary, run):
         return summary["deck"]["path"] == self.deck_of(run)
+
+    def window(self, run):
+        """Over which a force is averaged [T]: two steps, of the largest on a mesh where the
+        meshes are compared."""
+        if len(self.meshes) == 1:
+            return 2.0 * run.dt
+        return 2.0 * max(r.dt for r in self.combinations if r.mesh == run.mesh)
 
     def write_decks(self):
         """The meshes once each, and for every run the cards that tell it from the others."""
@@ -131,7 +138,7 @@ def keep(path, text):
 
 
 def fields_of(program, keyword):
-    """{field: (words it may be, is it used)} as the program tells."""
+    """{field: (words it may be, is it used, default)} as the program tells."""
     text = subprocess.run(
         [program, "--keywords", keyword], capture_output=True, text=True, check=True
     ).stdout
@@ -140,7 +147,9 @@ def fields_of(program, keyword):
         cells = [c.strip() for c in line.strip().strip("|").split("|")]
         if len(cells) == 8 and re.match(r"\d", cells[1]):
             words = [w.strip() for w in cells[5].split(",") if w.strip()]
-            found[cells[0]] = words, cells[6].startswith("honoured")
+            default = cells[4].split(" ")[0]
+            default = float(default) if is_number(default) else default
+            found[cells[0]] = words, cells[6].startswith("honoured"), default
     return found
 
 
@@ -153,13 +162,14 @@ def variants_of(program):
                 yield {"SCHEME": name, **setting}
 
 
-def without_defaults(variant):
-    """A deck's own scheme as variants_of writes it, where it is one of them."""
-    usual = {"THETA": {"THETA": 0.5, "XI": 0.5}, "PAOLI": {"PBETA": 0.25}}
-    usual = usual.get(variant["SCHEME"], {"RHOINF": 0.8})
-    found = {k: v for k, v in variant.items() if usual.get(k) != v}
-    if variant["SCHEME"] == "THETA" and found.get("XI") == found.get("THETA"):
+def without_defaults(variant, fields):
+    """A deck's own scheme as variants_of writes it, where it is one of them: the echo of a deck
+    has the defaults filled in."""
+    found = {k: v for k, v in variant.items() if k == "SCHEME" or fields.get(k, 3 * [""])[2] != v}
+    if found.get("XI") == found.get("THETA"):
         found.pop("XI", None)
+    if found.get("THETA") == 0.5:
+        del found["THETA"]
     return found
 
 
@@ -171,11 +181,13 @@ def wanted_methods(a, deck):
         masses = [m for m in masses if matches(m, a.masses)]
     variants = [v for v in variants_of(a.bipact) if not a.schemes or v["SCHEME"] in a.schemes]
     own, (mass, redist) = deck.own_variant()
-    own = without_defaults(own)
-    found = [(tuple(v.items()), m.rstrip("*"), int(m.endswith("*"))) for v in variants for m in masses]
-    mine = (tuple(own.items()), mass, redist)
+    own = without_defaults(own, fields_of(a.bipact, "BIPACT_TIME"))
     if own not in variants and (not a.schemes or own["SCHEME"] in a.schemes):
-        found += [(tuple(own.items()), m.rstrip("*"), int(m.endswith("*"))) for m in masses]
+        variants.append(own)
+    found = [
+        (tuple(v.items()), m.rstrip("*"), int(m.endswith("*"))) for v in variants for m in masses
+    ]
+    mine = (tuple(own.items()), mass, redist)
     return found if mine in found else found + [mine]
 
 
@@ -295,7 +307,7 @@ def work_of(folder, summary):
     )
 
 
-def sequences_of(runs, widths, one_mesh):
+def sequences_of(runs, results, widths, one_mesh):
     """Runs that are done, as sequences: on finer meshes at one ratio of step to mesh, or on one
     mesh with smaller steps."""
     groups = {}
@@ -305,22 +317,25 @@ def sequences_of(runs, widths, one_mesh):
         width = (lambda r: r.dt) if one_mesh else (lambda r: widths[r.mesh])
         members = sorted(members, key=width, reverse=True)
         if len(members) > 1:
-            yield study_estimate.Sequence(method, members, [width(r) for r in members])
+            trusted = not any(results[r].growth for r in members)
+            yield study_estimate.Sequence(
+                method, members, [width(r) for r in members], trusted
+            )
 
 
 def evaluate(study, widths, endings):
-    """{run: Result}, {quantity: Estimate} of all runs."""
+    """{run: Result}, {quantity: Estimate}, {run: {quantity: Quantity}} of all runs."""
     one_mesh = len(widths) == 1
     results = {r: result_of(study.folder(r), endings.get(r)) for r in study.combinations}
     histories = {
-        r: study_estimate.quantities(study.folder(r), one_mesh)
+        r: study_estimate.quantities(study.folder(r), study.window(r), one_mesh)
         for r, result in results.items()
         if result.done
     }
     found = study_estimate.estimate_all(
-        lambda: list(sequences_of(histories, widths, one_mesh)), histories, one_mesh
+        lambda: list(sequences_of(histories, results, widths, one_mesh)), histories, one_mesh
     )
-    return results, found
+    return results, found, histories
 
 
 def write_csv(path, results, estimates):
@@ -400,7 +415,7 @@ def main(argv=None):
     except SystemExit as problem:
         print(problem.code, file=sys.stderr)
         return 2
-    results, estimates = evaluate(study, widths, endings)
+    results, estimates, _ = evaluate(study, widths, endings)
     write_csv(os.path.join(a.out, "study.csv"), results, estimates)
     path = study_page.write(a, study, widths, results, estimates, remarks)
     done = sum(r.done for r in results.values())

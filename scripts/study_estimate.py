@@ -4,18 +4,20 @@ truth: a reference with a bar, observed orders, and which sequences converge to 
 A quantity is a history of numbers, of one of two kinds:
 
     state   values at common times; distance = rms over times and ids, over the range
-    force   an impulse; distance = sum |fm - mean of the other over the same two steps| dt over the
-            other's sum of |force| dt, fm = mean of two steps, as the tables print it
+    force   an impulse; distance = sum |mean force over a window - that of the other| dt over the
+            other's sum of |force| dt. A window is two steps; where a mesh has runs with several
+            steps, two of the largest, so that no reference is asked for more than it resolves
 
 No exact solution is used here. A sequence is one scheme, mass and ratio of step to mesh on finer
 and finer meshes (or one scheme and mass with smaller and smaller steps on one mesh). With d the
 distance of its last two runs and p the order, its last run is wrong by about d/(r^p - 1)
 (Richardson 1911; Roache 1994), r = ratio of refinement. The reference is the mean of the last
-runs of the best sequences, of different schemes and masses; its bar is SAFETY times the larger
-of their expected error and of their distance from it."""
+runs of the better half of the methods, different schemes and masses; its bar is SAFETY times the
+larger of the median of their expected errors and of the largest distance from it. A method does
+not converge in a quantity where half of its sequences or more do not."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import startup  # noqa: F401  before what is no part of Python
 import numpy as np
@@ -24,6 +26,7 @@ from tables import read_run
 
 SAFETY = 1.25  # factor of a bar of three grids (Roache 1994, grid convergence index)
 LEAST_ORDER = 0.2  # below it the error halves in five refinements at best: no convergence
+CLEAR = 3.0  # times the bar: an error that is known to a third
 ORDERS = (0.5, 1.0)  # across an impact: what an order may be taken for
 ENERGIES = "kinetic internal total external motion friction damping".split()
 
@@ -35,12 +38,14 @@ ENERGIES = "kinetic internal total external motion friction damping".split()
 class Quantity:
     """times (n) [T]; values (n, ids, components): the state, or the impulse of a force.
 
-    group: quantities of one group share their range, as energies of one table do."""
+    group: quantities of one group share their range, as energies of one table do.
+    window: of a force, over which it is averaged [T]."""
 
     kind: str
     times: np.ndarray
     values: np.ndarray
     group: str = ""
+    window: float = 0.0
 
 
 def by_ids(table, columns, first_of=None):
@@ -62,8 +67,8 @@ def velocity_of(times, place):
     return np.concatenate([speed[:1], speed])
 
 
-def quantities(folder, same_mesh=True):
-    """{name: Quantity} of the tables of a run. What belongs to elements or to contact nodes is
+def quantities(folder, window, same_mesh=True):
+    """{name: Quantity} of the tables of a run, forces over a window. What belongs to elements or to contact nodes is
     taken only where all runs have the same ones."""
     found = {}
 
@@ -72,7 +77,7 @@ def quantities(folder, same_mesh=True):
         if pair is not None and len(pair[0]) > 2 and np.isfinite(pair[1]).all():
             times, values = pair
             values = change(times, values) if change else values
-            found[name] = Quantity(kind, times, values, group)
+            found[name] = Quantity(kind, times, values, group, window)
 
     table = read_run(folder, "glstat")
     if table is not None:
@@ -145,23 +150,21 @@ def distance(one, other, unit):
         return math.nan
     if one.kind == "force":
         t = one.times
-        start = t[np.maximum(np.arange(1, len(t)) - 2, 0)]
-        back = np.maximum(np.arange(1, len(t)) - 2, 0)
+        start = np.maximum(t[1:] - one.window, 0.0)
         span = (t[1:] - start)[:, None, None]
-        mine = (one.values[1:] - one.values[back]) / span
-        theirs = (at_times(other, t[1:]) - at_times(other, start)) / span
-        return float(np.sum(size(mine - theirs) * np.diff(t)) / unit)
+        off = (one.values[1:] - at_times(other, t[1:])) / span
+        off -= (at_times(one, start) - at_times(other, start)) / span
+        return float(np.sum(size(off) * np.diff(t)) / unit)
     times = one.times if len(one.times) <= len(other.times) else other.times
     off = size(at_times(one, times) - at_times(other, times))
     return float(np.sqrt(np.mean(off**2) / one.values.shape[1]) / unit)
 
 
-def mean_of(quantities_, weights):
-    """Weighted mean history, at the times of the finest."""
-    times = max((q.times for q in quantities_), key=len)
-    values = sum(w * at_times(q, times) for q, w in zip(quantities_, weights))
-    first = quantities_[0]
-    return Quantity(first.kind, times, values / sum(weights), first.group)
+def mean_of(histories):
+    """Mean history, at the times of the finest."""
+    finest = max(histories, key=lambda q: len(q.times))
+    values = sum(at_times(q, finest.times) for q in histories) / len(histories)
+    return replace(finest, values=values)
 
 
 # ---------------------------------------------------------------- sequences
@@ -174,12 +177,13 @@ class Sequence:
     method: tuple  # (scheme, mass, ratio)
     runs: list
     widths: list
+    trusted: bool = True  # no run of it gained energy
     steps: list = field(default_factory=list)  # distance of each run from the next
     order: float = math.nan  # of the distances
     expected: float = math.inf  # error of the last run, from them
     errors: list = field(default_factory=list)  # distance from the reference
     slope: float = math.nan  # order of the errors
-    converges: bool = False
+    verdict: str = ""
 
 
 @dataclass
@@ -195,6 +199,7 @@ class Estimate:
     order: float = math.nan
     errors: dict = field(default_factory=dict)  # {run: error}
     bars: dict = field(default_factory=dict)  # {run: bar}
+    stuck: set = field(default_factory=set)  # (scheme, mass) that do not converge
 
 
 def slope(widths, errors):
@@ -214,9 +219,18 @@ def measure_steps(sequence, histories, unit):
 
 
 def expect(sequence, order):
-    """Error of the last run from its distance to the run before."""
-    ratio = sequence.widths[-2] / sequence.widths[-1]
-    sequence.expected = sequence.steps[-1] / (ratio**order - 1.0)
+    """Error of the last run: each distance tells of it, at the order; the largest counts, for
+    one alone may be small by chance."""
+    widths = sequence.widths
+    sequence.expected = max(
+        d / ((a / widths[-1]) ** order - (b / widths[-1]) ** order)
+        for d, a, b in zip(sequence.steps, widths, widths[1:])
+    )
+
+
+def is_steady(sequence):
+    """May a sequence tell of the truth: do its distances fall, without a gain of energy?"""
+    return len(sequence.runs) > 2 and sequence.trusted and sequence.order >= LEAST_ORDER
 
 
 def best_of_methods(sequences):
@@ -228,16 +242,16 @@ def best_of_methods(sequences):
 
 
 def choose_members(sequences, one_mesh):
-    """Sequences whose last runs make the reference. On finer meshes: those expected to be
-    within twice the best, three methods at least; on one mesh the best of each mass, whose
-    differences are all that tells of the error of the mesh."""
+    """Sequences whose last runs make the reference. On finer meshes: the better half of the
+    methods, three at least, for the best one may only look so; on one mesh the best of each
+    mass, whose differences are all that tells of the error of the mesh."""
     best = best_of_methods(sequences)
     if one_mesh:
         masses = {}
         for s in best:
             masses.setdefault(s.method[1], s)
         return list(masses.values())
-    return [s for k, s in enumerate(best) if k < 3 or s.expected <= 2.0 * best[0].expected]
+    return best[: max(3, (len(best) + 1) // 2)]
 
 
 def estimate(name, sequences, histories, one_mesh=False, unit=None):
@@ -247,7 +261,7 @@ def estimate(name, sequences, histories, one_mesh=False, unit=None):
     found = Estimate(name, unit or spread_of(finest), sequences)
     for s in sequences:
         measure_steps(s, histories, found.unit)
-    steady = [s for s in sequences if len(s.runs) > 2 and s.order >= LEAST_ORDER]
+    steady = [s for s in sequences if is_steady(s)]
     if not steady:
         return found
     found.order = float(np.clip(np.median([s.order for s in steady]), *ORDERS))
@@ -255,12 +269,11 @@ def estimate(name, sequences, histories, one_mesh=False, unit=None):
         expect(s, found.order)
     found.members = choose_members(steady, one_mesh)
     last = [histories[s.runs[-1]] for s in found.members]
-    weights = [1.0 / max(s.expected, 1.0e-12) ** 2 for s in found.members]
-    if one_mesh:
-        weights = [1.0] * len(last)
-    found.reference = mean_of(last, weights)
+    found.reference = mean_of(last)
     apart = [distance(q, found.reference, found.unit) for q in last]
-    found.bar = SAFETY * max(max(apart), min(s.expected for s in found.members))
+    found.bar = SAFETY * max(
+        max(apart), float(np.median([s.expected for s in found.members]))
+    )
     judge(found, histories)
     return found
 
@@ -274,10 +287,22 @@ def judge(found, histories):
     for s in found.sequences:
         s.errors = [found.errors[run] for run in s.runs]
         s.slope = slope(s.widths, s.errors)
-        s.converges = len(s.runs) > 1 and (
-            s.errors[-1] <= found.bar
-            or (s.slope >= LEAST_ORDER and s.errors[-1] < s.errors[0])
-        )
+        s.verdict = verdict(s, found.bar)
+    verdicts = {}
+    for s in found.sequences:
+        verdicts.setdefault(s.method[:2], []).append(s.verdict == "does not converge")
+    found.stuck = {method for method, stays in verdicts.items() if 2 * sum(stays) >= len(stays)}
+
+
+def verdict(sequence, bar):
+    """What the errors of a sequence say, which the reference knows to the bar: they fall;
+    they are too near the bar to tell; they stay."""
+    first, last = sequence.errors[0], sequence.errors[-1]
+    if last <= CLEAR * bar:
+        return "below the bar" if last <= bar else "near the bar"
+    if sequence.slope >= LEAST_ORDER and last < first:
+        return "converges"
+    return "does not converge"
 
 
 def rescale(found, unit):
