@@ -28,6 +28,7 @@ from tables import read_run
 
 SCENES = ("aligned", "unaligned", "wall", "sliding")
 GOAL = 1.0e-2
+MESHES = {"given": [], "refined": ["--steps", "1,0.5,0.25"], "one": ["--refine", "0"]}
 
 
 def write_decks(scene, folder, sizes):
@@ -153,10 +154,15 @@ def units_of(truth, found):
     return {name: groups[found[name].group or name] for name in truth}
 
 
-def score(scene, folder, sizes, words):
-    """Points [(run, quantity, estimate, bar, true, stuck)] of a study, and its choices."""
+def score(scene, folder, sizes, words, own_mesh=False):
+    """Points [(run, quantity, estimate, bar, true, stuck)] of a study, and its choices; own_mesh:
+    only the first deck is given, and refined or not as the words say."""
     paths, metas = write_decks(scene, folder, sizes)
-    words = [*paths, "-o", os.path.join(folder, scene), "--steps", "1,0.5,0.25", *words]
+    if own_mesh:
+        paths, metas = paths[:1], len(sizes) * metas[:1]
+    else:
+        words = ["--steps", "1,0.5,0.25", *words]
+    words = [*paths, "-o", os.path.join(folder, scene), *words]
     s, widths, endings, _, _ = study.run_study(study.arguments(words))
     results, estimates, histories = study.evaluate(s, widths, endings)
     points, units = [], None
@@ -204,8 +210,12 @@ def choice_ratios(points, results, estimates):
         choice = study_page.cheapest(e, results, GOAL, "work")
         if reach and choice:
             found[name] = results[choice].work / min(reach), mine[choice]
-        elif reach or choice:
-            found[name] = (math.inf if reach else 0.0), mine.get(choice, math.nan)
+        elif choice:
+            found[name] = 0.0, mine[choice]  # it is not as good, nor is any other
+        elif reach and e.bar <= GOAL:
+            found[name] = math.inf, math.nan
+        elif reach:
+            found[name] = None, e.bar
     return found
 
 
@@ -216,26 +226,29 @@ def main():
     add = parser.add_argument
     add("scenes", nargs="*", metavar="scene", help="of %s" % " ".join(SCENES))
     add("--quick", action="store_true", help="small meshes; without the sliding block")
+    add("--mesh", choices=sorted(MESHES), default="given", help="three decks, or one, refined or not")
     add("--verbose", action="store_true", help="quantities one by one")
     add("--jobs", type=int, default=os.cpu_count() or 1)
     add("--out", default=os.path.join(common.ROOT, "build", "study"), metavar="DIR")
     a = parser.parse_args()
     names = a.scenes or (SCENES[:3] if a.quick else SCENES)
-    folder = os.path.join(a.out, "quick" if a.quick else "full")
+    folder = os.path.join(a.out, "%s-%s" % ("quick" if a.quick else "full", a.mesh))
     os.makedirs(folder, exist_ok=True)
     total = np.zeros((4, 2))
-    print("%-10s %8s %8s %8s %8s %8s" % ("scene", "points", "covered", "narrow", "stays", "NEWMARK"))
+    print("scene        points  covered   narrow    stays  NEWMARK")
     for scene in names:
         sizes = (25, 50, 100) if a.quick else (50, 100, 200)
         sizes = (4, 8, 16) if scene == "sliding" else sizes
-        points, results, estimates = score(
-            scene, folder, sizes, ["--jobs", str(a.jobs)]
-        )
+        words = ["--jobs", str(a.jobs), *MESHES[a.mesh]]
+        points, results, estimates = score(scene, folder, sizes, words, a.mesh != "given")
         counts, ratios = report(points, results, estimates)
         total += counts
-        print(line(scene, counts))
-        for name, (ratio, true) in ratios.items():
-            print("    choice for %g, %s: work x %.2f, true error %.2g" % (GOAL, name, ratio, true))
+        print(line(scene, counts), flush=True)
+        for name, (ratio, value) in ratios.items():
+            text = "work x %s, true error %.2g" % (ratio, value)
+            if ratio is None:
+                text = "none, the bar is %.2g" % value
+            print("    choice for %g, %s: %s" % (GOAL, name, text))
         if a.verbose:
             show(points)
     print(line("all", total))

@@ -19,12 +19,15 @@ LINES = 8  # methods named in a figure; the others are grey
 
 def cheapest(estimate, results, goal, cost, sure=False):
     """The run of least cost whose estimated error meets a goal and whose energy does not grow;
-    sure: with its bar added. None where there is none."""
+    sure: with its bar added. None where there is none, or where the bar is wider than the
+    goal: then nobody can tell."""
     fit = [
         run
         for run, error in estimate.errors.items()
         if error + (estimate.bars[run] if sure else 0.0) <= goal and not results[run].growth
     ]
+    if estimate.bar > goal:
+        return None
     return min(fit, key=lambda r: getattr(results[r], cost), default=None)
 
 
@@ -126,7 +129,7 @@ def choices(estimates, results):
         row = [name]
         for goal in GOALS:
             run = cheapest(e, results, goal, "work")
-            words = told(run, e, results)
+            words = told(run, e, results) if e.bar <= goal else "the bar is wider"
             if run is not None and e.errors[run] + e.bars[run] > goal:
                 certain = cheapest(e, results, goal, "work", sure=True)
                 words += " (within the bar of the goal"

@@ -44,9 +44,10 @@ def coverage():
             found = study_coverage.score(scene, TMP, (12, 24, 48), words)
         counts, ratios = study_coverage.report(*found)
         total += counts
-        for name, (ratio, true) in ratios.items():
-            text = "%s, %s: the choice costs %g of the cheapest" % (scene, name, ratio)
-            check(ratio <= 2.0, text)
+        for name, (ratio, _) in ratios.items():
+            if ratio is not None:  # None: the bar is wider than the goal, and the page says so
+                text = "%s, %s: the choice costs %g of the cheapest" % (scene, name, ratio)
+                check(ratio <= 2.0, text)
     covered, narrow, stays, newmark = total[:, 0] / total[:, 1]
     check(total[0, 1] > 1000, "%d points" % total[0, 1])
     check(covered >= 0.95, "covered: %.3f" % covered)
@@ -166,7 +167,7 @@ def estimates():
     found = study_estimate.estimate_all(sequences, histories)["q"]
     truth = study_estimate.Quantity("state", t, t[:, None, None])
     check(found.stuck == {("c", "C")}, "does not converge: %s" % found.stuck)
-    check(found.order == 1.0, "order %g" % found.order)
+    check(abs(found.order - 1.0) < 1e-9, "order %g" % found.order)
     for run, history in histories.items():
         true = study_estimate.distance(history["q"], truth, 1.0)
         off = abs(found.errors[run] - true)
