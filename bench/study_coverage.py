@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Are the bars of scripts/study.py honest? Studies of scenes with exact solutions, and how often
+"""Are the bars of scripts/study.py honest? Studies of scenes with exact solutions, how often
 the error that a study gives a run is within its bar of the true one.
 
     study_coverage.py [--quick] [--jobs J] [--out DIR] [scene ...]
 
 A point is one quantity of one run. Printed for each scene: the share of points with |estimate -
-true| <= bar; the share of bars that are at most 3 true errors wide; the share of points of which
-the study says that they do not converge, for THETA and PAOLI, and for the force of NEWMARK with
-mass on its contact nodes; and what the choices for 1e-2 cost over the cheapest run that truly
+true| <= bar; the share of bars that are at most 3 true errors wide; the share of points of
+which the study says that they do not converge, for THETA and PAOLI, and for the force of NEWMARK
+with mass on its contact nodes; and what the choices for 1e-2 cost over the cheapest run that truly
 reaches 1e-2, in counted work."""
 
 import argparse
@@ -155,8 +155,8 @@ def units_of(truth, found):
 
 
 def score(scene, folder, sizes, words, own_mesh=False):
-    """Points [(run, quantity, estimate, bar, true, stuck)] of a study, and its choices; own_mesh:
-    only the first deck is given, and refined or not as the words say."""
+    """Points [(run, quantity, estimate, bar, true, stuck)] of a study, and its choices;
+    own_mesh: only the first deck is given, and refined or not as the words say."""
     paths, metas = write_decks(scene, folder, sizes)
     if own_mesh:
         paths, metas = paths[:1], len(sizes) * metas[:1]
@@ -193,9 +193,8 @@ def report(points, results, estimates):
         if p[0].variant[0][1] == "NEWMARK" and not p[0].redist and p[1].endswith(" force")
     ]
     ratios = choice_ratios(points, results, estimates)
-    return np.array(
-        [[sum(x), len(x)] for x in (covered, narrow, good, massive)]
-    ), ratios
+    counts = np.array([[sum(x), len(x)] for x in (covered, narrow, good, massive)])
+    return counts, ratios
 
 
 def choice_ratios(points, results, estimates):
@@ -226,7 +225,7 @@ def main():
     add = parser.add_argument
     add("scenes", nargs="*", metavar="scene", help="of %s" % " ".join(SCENES))
     add("--quick", action="store_true", help="small meshes; without the sliding block")
-    add("--mesh", choices=sorted(MESHES), default="given", help="three decks, or one, refined or not")
+    add("--mesh", choices=sorted(MESHES), default="given", help="three decks or one of them")
     add("--verbose", action="store_true", help="quantities one by one")
     add("--jobs", type=int, default=os.cpu_count() or 1)
     add("--out", default=os.path.join(common.ROOT, "build", "study"), metavar="DIR")
@@ -260,9 +259,13 @@ def show(points):
     for name in names:
         mine = [p for p in points if p[1] == name]
         missed = [p for p in mine if abs(p[2] - p[4]) > p[3]]
-        print("    %s: %d of %d missed, median bar/true %.2f, reference off by %.3g, bar %.3g" % (
-            name, len(missed), len(mine), np.median([p[3] / max(p[4], 1e-15) for p in mine]),
-            max(abs(p[2] - p[4]) / (1.0 + p[2]) for p in mine), min(p[3] for p in mine)))
+        off = max(abs(p[2] - p[4]) / (1.0 + p[2]) for p in mine)
+        wide = np.median([p[3] / max(p[4], 1e-15) for p in mine])
+        words = (name, len(missed), len(mine), wide, off, min(p[3] for p in mine))
+        print(
+            "    %s: %d of %d missed, median bar/true %.2f, reference off by %.3g, bar %.3g"
+            % words
+        )
 
 
 def line(name, counts):

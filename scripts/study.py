@@ -7,14 +7,14 @@ counted work, for what the deck's own tables hold.
     study.py deck.k finer.k finest.k        # meshes of your own, coarsest first
     study.py deck.k --mesh n=50,100,200     # the same, by a *PARAMETER
 
-The deck is run as it stands; then as it was understood, with each scheme of *BIPACT_TIME, each mass
-of *BIPACT_MASS (NAME* = massless contact nodes) and DT0 times each of --steps, on the deck's mesh
-and on finer ones, where the step becomes smaller with the elements. The finest runs that converge
-make a reference with a bar, against which all runs are measured: no exact solution is needed, and
-where nothing converges the page says so. Writes DIR/study.md, study.csv and figures.
+The deck is run as it stands; then as it was understood, with each scheme of *BIPACT_TIME, each
+mass of *BIPACT_MASS (NAME* = massless contact nodes) and DT0 times each of --steps, on the mesh
+of the deck and on finer ones, where the step becomes smaller with the elements. The finest runs
+that converge make a reference with a bar, against which all runs are measured: no exact solution
+is needed, and where nothing converges the page says so. Writes DIR/study.md, study.csv, figures.
 
-Started again the study goes on; what is finished is not run again (see sweep.py). doc/study.md says
-how to read the page.
+Started again the study goes on; what is finished is not run again (see sweep.py). doc/study.md
+says how to read the page.
 
 Exit code: 0 written, 2 wrong arguments or a deck that cannot be studied, 130 interrupted.
 """
@@ -165,7 +165,8 @@ def variants_of(program):
 def without_defaults(variant, fields):
     """A deck's own scheme as variants_of writes it, where it is one of them: the echo of a deck
     has the defaults filled in."""
-    found = {k: v for k, v in variant.items() if k == "SCHEME" or fields.get(k, 3 * [""])[2] != v}
+    default = {name: field[2] for name, field in fields.items()}
+    found = {k: v for k, v in variant.items() if k == "SCHEME" or default.get(k) != v}
     if found.get("XI") == found.get("THETA"):
         found.pop("XI", None)
     if found.get("THETA") == 0.5:
@@ -185,7 +186,9 @@ def wanted_methods(a, deck):
     if own not in variants and (not a.schemes or own["SCHEME"] in a.schemes):
         variants.append(own)
     found = [
-        (tuple(v.items()), m.rstrip("*"), int(m.endswith("*"))) for v in variants for m in masses
+        (tuple(variant.items()), m.rstrip("*"), int(m.endswith("*")))
+        for variant in variants
+        for m in masses
     ]
     mine = (tuple(own.items()), mass, redist)
     return found if mine in found else found + [mine]
@@ -198,8 +201,8 @@ def matches(mass, wanted):
 
 
 def read_meshes(a):
-    """([EchoDeck], remarks) of the study, coarsest first: of the decks, of the values of --mesh,
-    or of the deck refined."""
+    """([EchoDeck], remarks) of the study, coarsest first: of the decks, of the values of
+    --mesh, or of the deck refined."""
     remarks, meshes = [], []
     jobs = [(deck, None) for deck in a.decks]
     if a.mesh:
@@ -291,8 +294,8 @@ def first_line(text):
 
 def work_of(folder, summary):
     """Multiplications that the counts of a run stand for: each factorisation, two of each entry
-    of the factor a solve, 36 a node (nine neighbours, blocks of four) a step for K u, and of a sweep of
-    contact the square of its rows."""
+    of the factor a solve, 36 a node (nine neighbours, blocks of four) a step for K u, and of a
+    sweep of contact the square of its rows."""
     with open(os.path.join(folder, "bipact.log"), encoding="utf-8", errors="replace") as log:
         match = re.search(r"factor (\d+) bytes, (\d+) block mult", log.read())
     size, products = (int(x) for x in match.groups()) if match else (0, 0)
@@ -369,7 +372,8 @@ def arguments(argv):
     add("-o", dest="out", metavar="DIR", help="folder of the study (DECK's name with .study)")
     add("--mesh", metavar="name=a,b,c", help="parameter that makes the mesh, coarsest first")
     add("--refine", type=int, default=2, metavar="N", help="times each element is cut (2)")
-    add("--steps", metavar="A,B,C", help="DT0 times these (%s; one mesh: %s)" % (ON_MESHES, ON_ONE_MESH))
+    steps = "DT0 times these (%s; one mesh: %s)" % (ON_MESHES, ON_ONE_MESH)
+    add("--steps", metavar="A,B,C", help=steps)
     add("--schemes", metavar="A,B", help="schemes (all that there are)")
     add("--masses", metavar="A,B", help="masses, or their first letters: C,L,D* (all)")
     add("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="runs at once (cores)")

@@ -1,5 +1,5 @@
-"""The deck of a study: read from the deck as a run understood it (deck.echo.k), written again with
-another scheme, mass and step, and on finer meshes.
+"""The deck of a study: read from the deck as a run understood it (deck.echo.k), written again
+with another scheme, mass and step, and on finer meshes.
 
     deck = EchoDeck(path)
     finer = deck.refined()                 # every element in four; CannotRefine says why not
@@ -208,7 +208,7 @@ class Refinement:
     """Mid-points of edges and centres of quadrilaterals become nodes.
 
     A mid-point belongs to a node set where both ends of its edge do and the edge is on the
-    boundary, or an element beside it is in the set as a whole; a centre where its element is."""
+    boundary, or an element beside it is in the set as a whole; a centre with its element."""
 
     def __init__(self, deck):
         for block in deck.blocks:

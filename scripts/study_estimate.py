@@ -4,17 +4,17 @@ truth: a reference with a bar, observed orders, and which sequences converge to 
 A quantity is a history of numbers, of one of two kinds:
 
     state   values at common times; distance = rms over times and ids, over the range
-    force   an impulse; distance = sum |mean force over a window - that of the other| dt over the
-            other's sum of |force| dt. A window is two steps; where a mesh has runs with several
-            steps, two of the largest, so that no reference is asked for more than it resolves
+    force   an impulse; distance = sum |mean force over a window - that of the other| dt over
+            the other's sum of |force| dt. A window is two steps; where a mesh has runs with
+            several, two of the largest, so that no reference is asked for more than it resolves
 
-No exact solution is used here. A sequence is one scheme, mass and ratio of step to mesh on finer
+No exact solution is used here. A sequence is one scheme, mass, ratio of step to mesh on finer
 and finer meshes (or one scheme and mass with smaller and smaller steps on one mesh). With d the
 distance of its last two runs and p the order, its last run is wrong by about d/(r^p - 1)
 (Richardson 1911; Roache 1994), r = ratio of refinement. The reference is the mean of the last
-runs of the better half of the methods, different schemes and masses; its bar is SAFETY times the
-larger of the median of their expected errors and of the largest distance from it. A method does
-not converge in a quantity where half of its sequences or more do not."""
+runs of the better half of the methods, different schemes and masses; its bar is SAFETY times
+the larger of the median of their expected errors and of the largest distance from it. A method
+does not converge in a quantity where half of its sequences or more do not."""
 
 import math
 from dataclasses import dataclass, field, replace
@@ -68,8 +68,8 @@ def velocity_of(times, place):
 
 
 def quantities(folder, window, same_mesh=True):
-    """{name: Quantity} of the tables of a run, forces over a window. What belongs to elements or to contact nodes is
-    taken only where all runs have the same ones."""
+    """{name: Quantity} of the tables of a run, forces over a window. What belongs to elements
+    is taken only where all runs have the same ones."""
     found = {}
 
     def add(name, kind, table, columns, group="", first_of=None, change=None):

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 GOALS = (1.0e-1, 1.0e-2, 1.0e-3)
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8B4513")
+COLOURS = "#0072B2 #D55E00 #009E73 #CC79A7 #E69F00 #56B4E9 #000000 #8B4513".split()
 MARKS = "osD^vP*X<>"
 LINES = 8  # methods named in a figure; the others are grey
 
@@ -51,6 +51,7 @@ def draw(path, estimate, results):
     for run in estimate.errors:
         methods.setdefault(run.label, []).append(run)
     rank = sorted(methods, key=lambda m: area(methods[m], results, estimate))
+    low = 0.1 * estimate.bar  # nobody can tell errors below the bar apart
     figure, panels = plt.subplots(1, 2, figsize=(12.0, 4.8), sharey=True)
     for axes, cost, text in zip(
         panels, ("cpu", "work"), ("processor time [s]", "counted work [multiplications]")
@@ -58,7 +59,7 @@ def draw(path, estimate, results):
         for k, method in reversed(list(enumerate(rank))):
             runs = front(methods[method], results, estimate.errors, cost)
             x = [getattr(results[r], cost) for r in runs]
-            y = [max(estimate.errors[r], 1.0e-9) for r in runs]
+            y = [max(estimate.errors[r], low) for r in runs]
             look = {"color": "#bbbbbb", "lw": 0.7, "marker": ".", "ms": 3}
             if k < LINES:
                 look = {"color": COLOURS[k % len(COLOURS)], "lw": 1.5, "ms": 5}
@@ -69,10 +70,11 @@ def draw(path, estimate, results):
         axes.set_yscale("log")
         axes.set_xlabel(text)
         axes.grid(True, alpha=0.25)
-    low = min([e for e in estimate.errors.values() if e > 0.0] + [estimate.bar])
-    panels[0].set_ylim(max(0.5 * low, 1.0e-7), 2.0 * max(estimate.errors.values()))
+    panels[0].set_ylim(0.7 * low, 2.0 * max(estimate.errors.values()))
     panels[0].set_ylabel("error of " + estimate.name)
-    panels[1].legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=8, frameon=False)
+    named = panels[1].get_legend_handles_labels()
+    look = {"loc": "center left", "bbox_to_anchor": (1.01, 0.5), "fontsize": 8}
+    panels[1].legend(*(x[::-1] for x in named), frameon=False, **look)
     figure.tight_layout()
     figure.savefig(path, dpi=110, bbox_inches="tight", metadata={"Software": None})
     plt.close(figure)

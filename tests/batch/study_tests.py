@@ -1,5 +1,5 @@
-"""scripts/study.py: its bars cover the true errors of two bars, small; what is finished is not run
-again; meshes are refined with their sets, or it says why not; one mesh; faults.
+"""scripts/study.py: its bars cover the true errors of two bars, small; what is finished is not
+run again; meshes are refined with their sets, or it says why not; one mesh; faults.
 """
 
 import contextlib
