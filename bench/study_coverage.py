@@ -6,9 +6,9 @@ the error that a study gives a run is within its bar of the true one.
 
 A point is one quantity of one run. Printed for each scene: the share of points with |estimate -
 true| <= bar; the share of bars that are at most 3 true errors wide; the share of points of
-which the study says that they do not converge, for THETA and PAOLI, and for the force of NEWMARK
-with mass on its contact nodes; and what the choices for 1e-2 cost over the cheapest run that truly
-reaches 1e-2, in counted work."""
+which the study says that they do not converge, for THETA and PAOLI, and for the force of
+NEWMARK with mass on its contact nodes; and what the choices for 1e-2 cost over the cheapest run
+that truly reaches 1e-2, in counted work."""
 
 import argparse
 import math

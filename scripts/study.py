@@ -10,8 +10,9 @@ counted work, for what the deck's own tables hold.
 The deck is run as it stands; then as it was understood, with each scheme of *BIPACT_TIME, each
 mass of *BIPACT_MASS (NAME* = massless contact nodes) and DT0 times each of --steps, on the mesh
 of the deck and on finer ones, where the step becomes smaller with the elements. The finest runs
-that converge make a reference with a bar, against which all runs are measured: no exact solution
-is needed, and where nothing converges the page says so. Writes DIR/study.md, study.csv, figures.
+that converge make a reference with a bar, against which all runs are measured: no exact
+solution is needed, and where nothing converges the page says so. Writes DIR/study.md, study.csv
+and figures.
 
 Started again the study goes on; what is finished is not run again (see sweep.py). doc/study.md
 says how to read the page.
