@@ -48,6 +48,8 @@ def checksum(data):
 class Sweep:
     """Combinations of values, their folders, their processes."""
 
+    limit = None  # seconds after which a run is stopped
+
     def __init__(self, program, deck, values, out):
         self.program, self.deck, self.out = program, os.path.abspath(deck), out
         self.names = list(values)
@@ -57,10 +59,28 @@ class Sweep:
         self.processes, self.stopping = set(), threading.Event()
         self.lock, self.count = threading.Lock(), 0
 
+    def words(self, combination):
+        """What tells a combination from the others."""
+        return ["%s=%s" % pair for pair in zip(self.names, combination)]
+
     def folder(self, combination):
         """Folder of a combination: its values, with what no file name may hold as %XX."""
-        words = ("%s=%s" % pair for pair in zip(self.names, combination))
-        return os.path.join(self.out, ",".join(quoted(word) for word in words))
+        return os.path.join(self.out, ",".join(map(quoted, self.words(combination))))
+
+    def command(self, combination):
+        """What runs a combination."""
+        command = [self.program, self.deck, "-o", self.folder(combination), "--quiet"]
+        for word in self.words(combination):
+            command += ["-D", word]
+        return command
+
+    def is_its(self, summary, combination):
+        """Does a summary tell of the deck and the values of a combination?"""
+        given = {name.upper(): value for name, value in zip(self.names, combination)}
+        used = summary["deck"]["parameters"]
+        return summary["deck"]["path"] == self.deck and all(
+            used.get(name) == value for name, value in given.items()
+        )
 
     def same_file(self, entry):
         """Is a file that the run read what it was?"""
@@ -78,13 +98,10 @@ class Sweep:
         """Does the folder hold the end of just this run?"""
         summary = read_summary(self.folder(combination))
         try:
-            given = {name.upper(): value for name, value in zip(self.names, combination)}
-            used = summary["deck"]["parameters"]
             return (
                 summary["version"] == self.version
                 and summary["exit_code"] in FINISHED
-                and summary["deck"]["path"] == self.deck
-                and all(used.get(name) == value for name, value in given.items())
+                and self.is_its(summary, combination)
                 and all(map(self.same_file, summary["deck"]["files"]))
             )
         except (KeyError, TypeError):
@@ -99,10 +116,7 @@ class Sweep:
         path = os.path.join(folder, "summary.json")
         if os.path.exists(path):
             os.remove(path)
-        command = [self.program, self.deck, "-o", folder, "--quiet"]
-        for pair in zip(self.names, combination):
-            command += ["-D", "%s=%s" % pair]
-        code, errors = self.call(command)
+        code, errors = self.call(self.command(combination))
         summary = read_summary(folder)
         ending = None
         if summary is None:
@@ -125,15 +139,19 @@ class Sweep:
         self.processes.add(process)
         if self.stopping.is_set():
             process.terminate()
-        errors = process.communicate()[1].decode(errors="replace")
+        try:
+            errors = process.communicate(timeout=self.limit)[1]
+        except subprocess.TimeoutExpired:
+            process.terminate()
+            errors = process.communicate()[1]
         self.processes.discard(process)
-        return process.returncode, errors.strip()
+        return process.returncode, errors.decode(errors="replace").strip()
 
     def tell(self, combination, status):
         """A line of progress."""
         with self.lock:
             self.count += 1
-            words = ",".join("%s=%s" % pair for pair in zip(self.names, combination))
+            words = ",".join(self.words(combination))
             print("%d/%d %s: %s" % (self.count, self.total, words, status), file=sys.stderr)
 
     def run_all(self, jobs, fresh):
