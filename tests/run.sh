@@ -5,7 +5,8 @@
 # style check. Exit code 0 = passed, 77 = skipped (its last line says why), else failed. A test that
 # prints a line "N passed, N failed" is counted by it. Each test gets BIPACT, PYTHON, ROOT and an
 # empty directory TMP. Settings: FLAVOUR, JOBS (tests at once), LIMIT (seconds a test may take),
-# SHOW=1 (print the measured figures of the deck tests beside their bounds).
+# SHOW=1 (print the measured figures of the deck tests beside their bounds), TIMES=FILE (seconds of
+# each test go there).
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
@@ -50,7 +51,7 @@ done
 add style scripts/check_style.py
 
 run_one() {
-  local base=$work/$1 command=("$ROOT/${commands[$1]}")
+  local base=$work/$1 command=("$ROOT/${commands[$1]}") begin=$SECONDS
   mkdir "$base.tmp"
   [[ ${command[0]} == *.py ]] && command=("$PYTHON" "${command[@]}")
   TMP=$base.tmp TMPDIR=$base.tmp timeout -k 5 "$LIMIT" "${command[@]}" \
@@ -59,6 +60,7 @@ run_one() {
   wait $!
   echo $? >"$base.part"
   rm "$base.pid"
+  [ -z "${TIMES:-}" ] || echo "$((SECONDS - begin)) s  ${names[$1]}" >>"$TIMES"
   mv "$base.part" "$base.status"    # at once: who sees it can read it
 }
 
