@@ -8,7 +8,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
-from scenes import BIPACT, ROOT, TMP, check, finish
+from scenes import BIPACT, ROOT, TMP, check, finish, show
 
 sys.path.insert(0, os.path.join(ROOT, "bench"))
 import make_bars
@@ -34,14 +34,15 @@ def call(*words):
 
 
 def coverage():
-    """Two bars, touch at a step and within one, 12 to 48 elements: the figures that issue and
+    """Two bars, touch at a step and within one, 10 to 40 elements: the figures that issue and
     doc/study.md ask of the long study: 95 % covered, half of the bars at most 3 true errors
     wide, no convergence said of NEWMARK's force and of a tenth of THETA and PAOLI at most."""
-    words = ["--schemes", "THETA,NEWMARK,PAOLI", "--masses", "C,L,D,D*", *FEW]
+    words = ["--schemes", "THETA,NEWMARK,PAOLI", "--masses", "C,L,D", *FEW]
+    words += ["--steps", "1,0.5"]
     total = np.zeros((4, 2))
     for scene in ("aligned", "unaligned"):
         with contextlib.redirect_stderr(io.StringIO()):
-            found = study_coverage.score(scene, TMP, (12, 24, 48), words)
+            found = study_coverage.score(scene, TMP, (10, 20, 40), words)
         counts, ratios = study_coverage.report(*found)
         total += counts
         for name, (ratio, _) in ratios.items():
@@ -49,7 +50,9 @@ def coverage():
                 text = "%s, %s: the choice costs %g of the cheapest" % (scene, name, ratio)
                 check(ratio <= 2.0, text)
     covered, narrow, stays, newmark = total[:, 0] / total[:, 1]
-    check(total[0, 1] > 1000, "%d points" % total[0, 1])
+    words = "covered %.3f, narrow %.3f, stays %.3f, NEWMARK %.3f"
+    show(words % (covered, narrow, stays, newmark))
+    check(total[0, 1] > 900, "%d points" % total[0, 1])
     check(covered >= 0.95, "covered: %.3f" % covered)
     check(narrow >= 0.5, "narrow: %.3f" % narrow)
     check(stays <= 0.1, "said not to converge: %.3f of THETA and PAOLI" % stays)
@@ -59,7 +62,7 @@ def coverage():
 def page():
     """A deck as it stands, refined twice: page, table, figures; again: nothing is run; a run
     that is gone is run alone."""
-    make_bars.write(BARS, nx=6, courant=1.0, tables=["glstat", "nodout", "rcforc"])
+    make_bars.write(BARS, nx=6, courant=1.0, tables=["nodout", "rcforc"])
     out = os.path.join(TMP, "bars.study")
     words = (BARS, "-o", out, "--schemes", "THETA,PAOLI,CDX", "--masses", "C,D", "--steps", "1")
     code, output, errors = call(*words)
