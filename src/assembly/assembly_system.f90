@@ -9,7 +9,7 @@ module assembly_system
   use element_base, only: element_slot_t
   use element_registry, only: make_element
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
-      scalar_rows
+      scalar_products, scalar_rows
   use model_data, only: model_t, node_count
   implicit none
   private
@@ -45,8 +45,8 @@ module assembly_system
     integer, allocatable :: fixed_list(:, :)
   end type system_t
 
-  public :: make_system, effective_matrix, diagonal_matrix, multiply_mass, add_mass_rows, &
-      constrain, clear_fixed, set_fixed, list_dofs, stiffness_ratio
+  public :: make_system, effective_matrix, diagonal_matrix, multiply_mass, mass_products, &
+      add_mass_rows, constrain, clear_fixed, set_fixed, list_dofs, stiffness_ratio
 
 contains
 
@@ -307,6 +307,23 @@ contains
           factor, x, y)
     end if
   end subroutine multiply_mass
+
+  !> p = M x and q = M y, all (2, n), for little more than one of them.
+  subroutine mass_products(system, x, y, p, q)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: x(:, :), y(:, :)
+    real(wp), intent(out) :: p(:, :), q(:, :)
+    integer :: i
+    if (system%mass_is_diagonal) then
+      do i = 1, system%n
+        p(:, i) = system%lumped(i)*x(:, i)
+        q(:, i) = system%lumped(i)*y(:, i)
+      end do
+    else
+      call scalar_products(system%n, system%graph%first, system%graph%column, system%mass, &
+          x, y, p, q)
+    end if
+  end subroutine mass_products
 
   !> y = y + factor * M x in some rows, each as MULTIPLY_MASS has it.
   subroutine add_mass_rows(system, rows, factor, x, y)

@@ -24,7 +24,7 @@ module linalg_graph
     procedure :: diagonal_entry
   end type block_matrix_t
 
-  public :: graph_from_cliques, scalar_product, scalar_rows
+  public :: graph_from_cliques, scalar_product, scalar_products, scalar_rows
 
 contains
 
@@ -119,8 +119,8 @@ contains
   pure subroutine scalar_product(n, first, column, s, factor, x, y)
     integer, intent(in) :: n
     integer, intent(in) :: first(n + 1)
-    integer, intent(in) :: column(:)
-    real(wp), intent(in) :: s(:)
+    integer, intent(in) :: column(*)
+    real(wp), intent(in) :: s(*)
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: x(2, n)
     real(wp), intent(inout) :: y(2, n)
@@ -134,6 +134,28 @@ contains
       y(:, i) = y(:, i) + factor*row
     end do
   end subroutine scalar_product
+
+  !> p = S x and q = S y in one pass over S; all (2, n).
+  pure subroutine scalar_products(n, first, column, s, x, y, p, q)
+    integer, intent(in) :: n
+    integer, intent(in) :: first(n + 1)
+    integer, intent(in) :: column(*)
+    real(wp), intent(in) :: s(*)
+    real(wp), intent(in) :: x(2, n), y(2, n)
+    real(wp), intent(out) :: p(2, n), q(2, n)
+    real(wp) :: row_x(2), row_y(2)
+    integer :: i, k
+    do i = 1, n
+      row_x = zero
+      row_y = zero
+      do k = first(i), first(i + 1) - 1
+        row_x = row_x + s(k)*x(:, column(k))
+        row_y = row_y + s(k)*y(:, column(k))
+      end do
+      p(:, i) = row_x
+      q(:, i) = row_y
+    end do
+  end subroutine scalar_products
 
   !> The same in some rows, digit for digit. (A loop of its own: one shared by both would be
   !> called for each row.)

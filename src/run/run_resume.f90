@@ -120,6 +120,7 @@ contains
         run%contact, run%state%u, run%state%du, run%state%cycle, status)
     if (run%plan%motions) call hold_active(run)
     if (origin%new_reactions) call start_reactions(run)
+    run%scheme%is_current = .false.
   end subroutine restore
 
   !> Where the run stands in its steps, and those to its end, which may be another one now.

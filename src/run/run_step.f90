@@ -227,6 +227,7 @@ contains
     type(run_t), intent(inout) :: run
     call exchange_before(run, archive_restore)
     if (run%plan%motions) call hold_active(run)
+    run%scheme%is_current = .false.
     run%step%new_interface = run%analyses > run%step%analyses
   end subroutine restore_moment
 

@@ -4,19 +4,20 @@
 !> U1, V1 by Newmark with gamma = 1/2 - am + af, beta = (gamma + 1/2)^2/4. The contact force
 !> R1 is NOT averaged like the loads: it acts with weight 1, else the schemes gain energy on
 !> impact.
-!> C V is averaged like K U.
+!> C V is averaged like K U. What the next step needs, K U and M (k D - am A0), is made at the
+!> end of a step together with what the ledger needs, for little more than either alone.
 !> One stage: [k M + (1 - af) (gamma C/(beta h) + K)] x = M (k D - am A0) - K U0 + (1 - af) P1 +
 !> af P0 - C {[1 - (1 - af) gamma/beta] V0 + (1 - af) h [1 - gamma/(2 beta)] A0} + R1 with
 !> k = (1 - am)/(beta h^2), D = h V0 + h^2 (1/2 - beta) A0. At am = af = 1/2 (rho = 1) it is the
 !> theta-method at theta = xi = 1/2.
 module time_alpha
-  use assembly_forces, only: strain_product
-  use assembly_system, only: system_t, multiply_mass
+  use assembly_forces, only: strain_product, subtract_internal_force
+  use assembly_system, only: system_t, multiply_mass, mass_products
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
   use model_data, only: model_t, motion_velocity, motion_displacement
   use model_state, only: state_t
-  use time_base, only: scheme_t, stage_t, mass_product
+  use time_base, only: scheme_t, stage_t
   use time_start, only: start_acceleration
   implicit none
   private
@@ -26,8 +27,12 @@ module time_alpha
     real(wp) :: af = zero
     real(wp) :: gamma = half
     real(wp) :: beta = 0.25_wp
-    real(wp), allocatable :: d(:, :)        !< k D - am A0, then its part D [L]
-    real(wp), allocatable :: a_before(:, :) !< A0, then A1 - A0 [L/T2]
+    real(wp), allocatable :: d(:, :)        !< k D - am A0, of the next step [L/T2]
+    real(wp), allocatable :: da(:, :), m_da(:, :)   !< A1 - A0 and M (A1 - A0)
+    ! Only where the next step begins as this one ends.
+    logical :: looks_ahead = .true.
+    real(wp), allocatable :: inertia(:, :)  !< M (k D - am A0) of the next step [F]
+    real(wp), allocatable :: force(:, :), force_before(:, :)   !< K U1, K U0 [F]
   contains
     procedure :: set_step => alpha_set_step
     procedure :: start => alpha_start
@@ -64,10 +69,11 @@ contains
     this%h = h
     rate = (one - this%af)*this%gamma/this%beta
     this%stage = [stage_t(c_m=(one - this%am)/(this%beta*h**2), c_k=one - this%af, &
-        load_weight=[this%af, one - this%af], c_c=rate/h, &
+        load_weight=[this%af, one - this%af], force_weight=zero, c_c=rate/h, &
         rate_weight=[one - rate, h*(one - this%af - half*rate)])]
     this%load_work_weight = [this%af, one - this%af]
     this%dissipates = .true.
+    this%is_current = .false.
   end subroutine alpha_set_step
 
   subroutine alpha_start(this, model, system, state, status)
@@ -76,23 +82,56 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    allocate (this%d(2, system%n), this%a_before(2, system%n))
-    this%a_before = zero
+    associate (n => system%n)
+      allocate (this%d(2, n), this%da(2, n), this%m_da(2, n))
+      if (this%looks_ahead) allocate (this%inertia(2, n), this%force(2, n), &
+          this%force_before(2, n))
+    end associate
+    this%da = zero
     call start_acceleration(trim(this%name), model, system, this%starts_in_balance, state, &
         status)
   end subroutine alpha_start
 
+  !> M (k D - am A0) - K U0.
   subroutine alpha_right_side(this, stage, system, state, b)
     class(alpha_t), intent(inout) :: this
     integer, intent(in) :: stage
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     real(wp), intent(inout) :: b(:, :)
-    real(wp) :: k
-    k = this%stage(stage)%c_m
-    this%d = k*(this%h*state%v) + (k*this%h**2*(half - this%beta) - this%am)*state%a
-    call multiply_mass(system, one, this%d, b)
+    if (.not. this%is_current) call look_ahead(this, system, state)
+    call add_difference(size(b), this%inertia, this%force, b)
   end subroutine alpha_right_side
+
+  pure subroutine add_difference(n, x, y, b)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: x(n), y(n)
+    real(wp), intent(inout) :: b(n)
+    b = b + (x - y)
+  end subroutine add_difference
+
+  !> M (k D - am A0) and K U of a step that begins at the state, and M (A1 - A0) of the one that
+  !> has ended there.
+  subroutine look_ahead(this, system, state)
+    class(alpha_t), intent(inout) :: this
+    type(system_t), intent(in) :: system
+    type(state_t), intent(in) :: state
+    real(wp) :: k
+    k = this%stage(1)%c_m
+    call predict(size(this%d), k*this%h, k*this%h**2*(half - this%beta) - this%am, state%v, &
+        state%a, this%d)
+    call mass_products(system, this%d, this%da, this%inertia, this%m_da)
+    this%force = zero
+    call subtract_internal_force(system, -one, state%u, this%force)
+    this%is_current = .true.
+  end subroutine look_ahead
+
+  pure subroutine predict(n, of_v, of_a, v, a, d)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: of_v, of_a, v(n), a(n)
+    real(wp), intent(out) :: d(n)
+    d = of_v*v + of_a*a
+  end subroutine predict
 
   !> U1 = U0 + x, A1 = (x - D)/(beta h^2), V1 = V0 + h [(1 - gamma) A0 + gamma A1].
   subroutine alpha_update(this, stage, x, state)
@@ -100,20 +139,28 @@ contains
     integer, intent(in) :: stage
     real(wp), intent(inout) :: x(:, :)
     type(state_t), intent(inout) :: state
-    real(wp) :: d, a1
-    integer :: i, k
-    this%a_before = state%a
-    do i = 1, size(x, 2)
-      do k = 1, 2
-        d = this%h*state%v(k, i) + this%h**2*(half - this%beta)*state%a(k, i)
-        a1 = (x(k, i) - d)/(this%beta*this%h**2)
-        state%v(k, i) = state%v(k, i) &
-            + this%h*((one - this%gamma)*state%a(k, i) + this%gamma*a1)
-        state%a(k, i) = a1
-        state%u(k, i) = state%u(k, i) + x(k, i)
-      end do
-    end do
+    this%is_current = .false.
+    call update_kernel(size(x), this%h, this%beta, this%gamma, x, state%u, state%v, state%a, &
+        this%da)
   end subroutine alpha_update
+
+  !> With dA = (x - h V0)/(beta h^2) - A0/(2 beta).
+  pure subroutine update_kernel(n, h, beta, gamma, x, u, v, a, da)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: h, beta, gamma, x(n)
+    real(wp), intent(inout) :: u(n), v(n), a(n)
+    real(wp), intent(out) :: da(n)
+    real(wp) :: of_x, of_a
+    integer :: i
+    of_x = one/(beta*h**2)
+    of_a = half/beta
+    do i = 1, n
+      da(i) = of_x*(x(i) - h*v(i)) - of_a*a(i)
+      v(i) = v(i) + h*(a(i) + gamma*da(i))
+      u(i) = u(i) + x(i)
+      a(i) = a(i) + da(i)
+    end do
+  end subroutine update_kernel
 
   !> (1/2 - af) dU.K dU - (gamma - 1 + am) dU.M dA + c h^2 d(A.M A/2) + c (gamma - 1/2) h^2
   !> dA.M dA, c = beta - gamma/2. The first two terms nearly cancel where waves are resolved.
@@ -121,15 +168,52 @@ contains
     class(alpha_t), intent(inout) :: this
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
-    real(wp) :: c
+    real(wp) :: c, weight(3)
     c = (this%beta - half*this%gamma)*this%h**2
-    alpha_dissipation = half*c*(mass_product(system, state%a, state%a) &
-        - mass_product(system, this%a_before, this%a_before))
-    this%a_before = state%a - this%a_before
-    alpha_dissipation = alpha_dissipation + (half - this%af)*strain_product(system, state%du) &
-        + c*(this%gamma - half)*mass_product(system, this%a_before, this%a_before) &
-        - (this%gamma - one + this%am)*mass_product(system, state%du, this%a_before)
+    weight = [c, c*(this%gamma - one), this%gamma - one + this%am]
+    if (this%looks_ahead) then
+      call swap(this%force, this%force_before)
+      call look_ahead(this, system, state)
+      alpha_dissipation = inertia_terms(size(this%da), weight, state%a, this%da, state%du, &
+          this%m_da) + (half - this%af)*change_of_force(size(this%da), state%du, this%force, &
+          this%force_before)
+    else
+      this%m_da = zero
+      call multiply_mass(system, one, this%da, this%m_da)
+      alpha_dissipation = inertia_terms(size(this%da), weight, state%a, this%da, state%du, &
+          this%m_da) + (half - this%af)*strain_product(system, state%du)
+    end if
   end function alpha_dissipation
+
+  subroutine swap(a, b)
+    real(wp), allocatable, intent(inout) :: a(:, :), b(:, :)
+    real(wp), allocatable :: kept(:, :)
+    call move_alloc(a, kept)
+    call move_alloc(b, a)
+    call move_alloc(kept, b)
+  end subroutine swap
+
+  !> dU.(K U1 - K U0).
+  pure real(wp) function change_of_force(n, du, after, before)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: du(n), after(n), before(n)
+    integer :: i
+    change_of_force = zero
+    do i = 1, n
+      change_of_force = change_of_force + du(i)*(after(i) - before(i))
+    end do
+  end function change_of_force
+
+  !> M dA.(w1 A1 + w2 dA - w3 dU): d(A.M A/2) is M dA.(A1 - dA/2).
+  pure real(wp) function inertia_terms(n, weight, a, da, du, m_da) result(terms)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: weight(3), a(n), da(n), du(n), m_da(n)
+    integer :: i
+    terms = zero
+    do i = 1, n
+      terms = terms + m_da(i)*(weight(1)*a(i) + weight(2)*da(i) - weight(3)*du(i))
+    end do
+  end function inertia_terms
 
   !> x = U1 - U0, or D + beta h^2 A1 with A1 given or from V1.
   pure real(wp) function alpha_given_motion(this, stage, state, direction, node, kind, value)

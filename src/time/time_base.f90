@@ -56,6 +56,8 @@ module time_base
     !> True when the scheme has damping of its own to be accounted for.
     logical :: dissipates = .false.
     type(staggered_t) :: staggered
+    !> What a scheme has made ahead goes with the state: not after a restart.
+    logical :: is_current = .false.
     !> (2, n) motion on which forces do work, only where it is not that of the step [L]
     real(wp), allocatable :: conjugate(:, :)
     ! Only of schemes of two stages, whose matrices differ:

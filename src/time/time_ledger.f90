@@ -170,6 +170,7 @@ contains
     end if
     middle = state%u - half*state%du
     call strain_energies(system, model%element_part, middle, ledger%part_internal)
+    if (.not. abs(ledger%staggered%share) > zero) return
     call strain_energies(system, model%element_part, state%du, rest)
     ledger%part_internal = ledger%part_internal + ledger%staggered%share*rest
   end subroutine find_internal

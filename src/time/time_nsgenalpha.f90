@@ -65,6 +65,7 @@ contains
     integer :: k
     ! The smooth forces alone are not in balance after a static phase either.
     this%starts_in_balance = .false.
+    this%looks_ahead = .false.
     call this%alpha_t%start(model, system, state, status)
     state%a_smooth = state%a
     allocate (this%free(2, system%n), this%stage_work(2))
@@ -115,7 +116,6 @@ contains
       state%u = state%u + x
       return
     end if
-    this%a_before = state%a
     do i = 1, size(x, 2)
       do k = 1, 2
         call predict(this, state%v(k, i), state%a(k, i), state%a_smooth(k, i), a, u, v)
@@ -125,6 +125,7 @@ contains
         this%stage_work(2)%x(k, i) = this%h*state%v(k, i) + half*(x(k, i) + this%free(k, i))
         state%v(k, i) = state%v(k, i) + x(k, i)/this%h
         state%a_smooth(k, i) = s1
+        this%da(k, i) = a + this%ka*s1 - state%a(k, i)
         state%a(k, i) = a + this%ka*s1
       end do
     end do

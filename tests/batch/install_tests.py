@@ -35,6 +35,7 @@ PLACES = {
     "name=a,b,c": "mu=0.1,0.2",
     "PROBLEM.hdf5": "contact.hdf5",
     "SOLUTION.hdf5": "solution.hdf5",
+    "THETA,PAOLI": "THETA,PAOLI",
     "IN": "plate.inp",
     "OUT.k": "other.k",
     "disc.msh": "plate.inp",

@@ -64,7 +64,7 @@ def page():
     that is gone is run alone."""
     make_bars.write(BARS, nx=6, courant=1.0, tables=["nodout", "rcforc"])
     out = os.path.join(TMP, "bars.study")
-    words = (BARS, "-o", out, "--schemes", "THETA,PAOLI,CDX", "--masses", "C,D", "--steps", "1")
+    words = (BARS, "-o", out, "--schemes", "THETA,GENALPHA,CDX", "--masses", "C,D", "--steps", "1")
     code, output, errors = call(*words)
     check(code == 0 and output.endswith("12 of 12 runs are done\n"), output + errors)
     with open(os.path.join(out, "study.md"), encoding="utf-8") as file:
@@ -75,10 +75,10 @@ def page():
         check(os.path.getsize(os.path.join(out, name)) > 1000, name)
     code, _, errors = call(*words)
     check(code == 0 and "12 finished before" in errors and "1/" not in errors, errors)
-    gone = next(f for f in os.listdir(os.path.join(out, "runs")) if f.startswith("PAOLI"))
+    gone = next(f for f in os.listdir(os.path.join(out, "runs")) if f.startswith("GENALPHA"))
     os.remove(os.path.join(out, "runs", gone, "summary.json"))
     code, _, errors = call(*words)
-    check(code == 0 and "1/1 PAOLI" in errors, errors)
+    check(code == 0 and "1/1 GENALPHA" in errors, errors)
 
 
 def one_mesh():
