@@ -362,13 +362,12 @@ contains
         if (near%front(i) == is_behind) cycle
         associate (list => near%edge(near%first(i):near%first(i + 1) - 1))
           call true_gap(obstacle, list, model%x, u, own%node(near%node(i)), gap, edge)
+          if (gap < -least_allowance(own, obstacle, near%node(i))) call look_again(own, &
+              obstacle, this%is_self, near%node(i), model%x, u, gap, edge)
           near%distance(i) = gap
           near%nearest(i) = edge
           if (gap >= zero .and. .not. is_all) cycle
           if (gap < zero) then
-            if (gap < -least_allowance(own, obstacle, near%node(i))) &
-                call look_again(own, obstacle, this%is_self, near%node(i), model%x, u, gap, &
-                edge)
             if (gap >= -least_allowance(own, obstacle, near%node(i))) gap = tiny(one)
           end if
           if (gap > merge(view%reach, zero, is_all)) cycle

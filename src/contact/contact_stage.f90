@@ -89,7 +89,8 @@ contains
     type(status_t), intent(inout) :: status
     type(certificate_t) :: certificate
     if (contact%rule%level == level_velocity) then
-      call find_velocity_rows(model, contact, u, v, x_free)
+      call find_velocity_rows(model, contact, u, v, x_free, status)
+      if (failed(status)) return
     else
       call keep_pressed_rows(contact, v)
     end if
@@ -308,8 +309,21 @@ contains
         end associate
       end do
     end associate
+    if (contact%rule%level /= level_position) terms = terms + velocity_terms(contact)
     gap_noise = 8.0_wp*epsilon(terms)*sqrt(terms)
   end function gap_noise
+
+  !> On velocities those of all bodies nearly cancel, and forces at rest with reactions, whose
+  !> round-off moves contacts by eps W r [L2].
+  pure real(wp) function velocity_terms(contact)
+    type(contact_t), intent(in) :: contact
+    real(wp) :: pressed
+    associate (rows => contact%rows, rule => contact%rule)
+      pressed = sum(rows%r_previous(:, :rows%n)**2)
+      velocity_terms = (contact%w%mean_diagonal()*rule%factor)**2*pressed + &
+          rows%n*(max(abs(rule%before), rule%now)*contact%largest_velocity)**2
+    end associate
+  end function velocity_terms
 
   !> After the step of motion du to displacement u (2, nodes): u of every row, the certificate
   !> of the reactions for it (to the round-off of gaps and motions, which nearly cancel at a

@@ -43,6 +43,7 @@ module contact_types
     type(contact_rule_t) :: rule                  !< of the stage
     !> r.dU of the step is friction and normal loss, each by its own formula
     logical :: splits_work = .true.
+    real(wp) :: largest_velocity = zero           !< on velocities: of all nodes [L/T]
     logical :: was_on_velocities = .false.        !< the last stage: offsets, active rows
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)

@@ -4,6 +4,8 @@
 !> if they stood on the boundary that they went through.
 module contact_velocity
   use base_kinds, only: wp, zero
+  use base_status, only: status_t, fail, failed, status_numerical
+  use base_strings, only: to_text
   use contact_assemble, only: find_rows, take_spare
   use contact_rows, only: rows_t, relative_displacement
   use contact_types, only: contact_t
@@ -15,15 +17,19 @@ module contact_velocity
 contains
 
   !> Rows at displacement u and velocity v (2, nodes) for the free motion x_free (2, m), which
-  !> of them act, and their offsets [L].
-  subroutine find_velocity_rows(model, contact, u, v, x_free)
+  !> of them act, and their offsets [L]. Fails where a node has sunk in beyond what is listed.
+  subroutine find_velocity_rows(model, contact, u, v, x_free, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), v(:, :), x_free(:, :)
+    type(status_t), intent(inout) :: status
     integer :: a
     contact%placed = u
     call place_on_boundary(contact%rows, u, contact%placed)
     call find_rows(model, contact, contact%placed, x_free)
+    call check_slots(model, contact%rows, status)
+    call check_slots(model, contact%spare, status)
+    if (failed(status)) return
     contact%placed = u - contact%placed
     call correct_gaps(contact%placed, contact%rows)
     call correct_gaps(contact%placed, contact%spare)
@@ -31,6 +37,7 @@ contains
       contact%spare%is_marked(a) = touches(contact, contact%spare, a, v)
     end do
     call take_spare(contact)
+    contact%largest_velocity = maxval(abs(v))
     do a = 1, contact%rows%n
       call activate(contact, a, touches(contact, contact%rows, a, v), v)
     end do
@@ -41,10 +48,26 @@ contains
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: v(:, :)
     integer :: a
+    contact%largest_velocity = maxval(abs(v))
     do a = 1, contact%rows%n
       call activate(contact, a, contact%rows%r(1, a) > zero, v)
     end do
   end subroutine keep_pressed_rows
+
+  !> All points of rows are on the interface, unless a node has sunk in too far.
+  subroutine check_slots(model, rows, status)
+    type(model_t), intent(in) :: model
+    type(rows_t), intent(in) :: rows
+    type(status_t), intent(inout) :: status
+    integer :: a
+    do a = 1, rows%n
+      if (all(rows%slot(rows%first(a):rows%first(a + 1) - 1) > 0)) cycle
+      call fail(status, status_numerical, 'node '//to_text(model%node_id(rows%key(3, a)))// &
+          ' has sunk in beyond the nodes that are listed', &
+          hint='take a smaller step, or contact on positions')
+      return
+    end do
+  end subroutine check_slots
 
   !> Moves contactor nodes that are below the boundary of one of the rows of the last step
   !> onto it. rows%u(1, :) is the gap then, rows of a node follow each other.

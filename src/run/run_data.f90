@@ -26,8 +26,12 @@ module run_data
   implicit none
   private
 
+  !> Residual of the energy balance / largest term beyond which its terms mean little: a
+  !> hundred times what a run keeps to.
+  real(wp), parameter, public :: open_balance = 1.0e-9_wp
+
   !> Kinds of warnings that a run can give (run_warnings names them).
-  integer, parameter, public :: warning_kinds = 5
+  integer, parameter, public :: warning_kinds = 6
 
   !> What this scene needs, each with its reason; what is off is not allocated and not called.
   type, public :: feature_t
@@ -143,6 +147,7 @@ module run_data
     real(wp) :: rotation = zero        !< largest seen [radians]
     integer :: rotation_element = 0
     integer :: rotations = 0           !< looks that found one beyond ROTWARN
+    integer :: open_balances = 0       !< evaluations of energies beyond open_balance
     integer :: looked = 0              !< step of the last look at all bodies
     type(bending_t) :: bending         !< of the elements, by part
     logical :: broken = .false.        !< NaN or infinity: the state is not written

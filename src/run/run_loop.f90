@@ -17,7 +17,7 @@ module run_loop
   use deck_names, only: step_halve
   use output_tables, only: any_due, energies_due
   use run_damping, only: update_damping, keep_damping, damping_work
-  use run_data, only: run_t
+  use run_data, only: run_t, open_balance
   use run_frames, only: keep_frame
   use run_motion, only: activate_motions, find_reactions, reaction_work
   use run_progress, only: progress_t, show_progress, clear_progress
@@ -419,6 +419,7 @@ contains
       run%rotation = angle
       run%rotation_element = element
     end if
+    if (abs(run%ledger%residual) > open_balance) run%open_balances = run%open_balances + 1
     if (run%ledger%growth > run%model%controls%growth) then
       run%ledger%growths = run%ledger%growths + 1
       if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle

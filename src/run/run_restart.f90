@@ -203,9 +203,9 @@ contains
   subroutine exchange_progress(archive, run)
     type(archive_t), intent(inout) :: archive
     type(run_t), intent(inout) :: run
-    integer :: counts(6)
+    integer :: counts(7)
     counts = [run%factors, run%analyses, run%solves, run%rotation_element, run%restart_files, &
-        run%rotations]
+        run%rotations, run%open_balances]
     call archive%exchange('run.counts', counts)
     run%factors = counts(1)
     run%analyses = counts(2)
@@ -213,6 +213,7 @@ contains
     run%rotation_element = counts(4)
     run%restart_files = counts(5)
     run%rotations = counts(6)
+    run%open_balances = counts(7)
     call archive%exchange('run.first_warned', run%first_warned)
     call archive%exchange('run.first_time', run%first_time)
     call archive%exchange('run.rotation', run%rotation)

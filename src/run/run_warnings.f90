@@ -8,15 +8,16 @@ module run_warnings
   use base_messages, only: messages_t, add_message, set_message
   use base_strings, only: to_text
   use deck_names, only: step_fixed
-  use run_data, only: run_t, warning_kinds
+  use run_data, only: run_t, warning_kinds, open_balance
   use run_progress, only: progress_t, clear_progress
   implicit none
   private
   public :: notice_warnings, collect_messages, show_warnings, write_messages, write_kinds
 
   character(*), parameter :: kind(warning_kinds) = [character(13) :: 'energy-growth', &
-      'overlap', 'certificate', 'wedging', 'rotation']
-  integer, parameter :: growth = 1, overlap = 2, certificate = 3, wedging = 4, rotation = 5
+      'overlap', 'certificate', 'wedging', 'rotation', 'balance']
+  integer, parameter :: growth = 1, overlap = 2, certificate = 3, wedging = 4, rotation = 5, &
+      balance = 6
 
 contains
 
@@ -47,6 +48,7 @@ contains
     count(certificate) = run%contact%tally%misses
     count(wedging) = run%contact%tally%wedged
     count(rotation) = run%rotations
+    count(balance) = run%open_balances
   end function counts
 
   !> The record as it stands: warnings with their last figures, notes of the contacts.
@@ -96,6 +98,10 @@ contains
             ': the motion may depend on the step, try others'
       case (rotation)
         text = rotation_text(run, since)
+      case (balance)
+        text = 'the energy balance is open by '//to_text(run%ledger%worst_residual)// &
+            ' of the largest term; first beyond '//to_text(open_balance)//' at '//since// &
+            ': stiff and light parts leave each other too few digits, take less unequal ones'
       end select
     end associate
   end function warning_text

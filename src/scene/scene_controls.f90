@@ -128,6 +128,7 @@ contains
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
     integer, intent(in) :: r
+    real(wp), parameter :: near = 1.0e-12_wp    ! beta of a deck has few digits
     real(wp) :: rest
     integer :: steps
     controls%gamma = deck%real(r, 'GAMMA')
@@ -142,7 +143,7 @@ contains
     controls%alpha = deck%real(r, 'ALPHA')
     if (controls%alpha < -one/3.0_wp) call deck%complain(r, 'ALPHA', &
         'expected a number from -1/3 to below 0: alpha of HHT')
-    if (4.0_wp*controls%beta < (controls%gamma + 0.5_wp)**2) call deck%complain(r, 'BETA', &
+    if (4.0_wp*controls%beta < (one - near)*(controls%gamma + 0.5_wp)**2) call deck%complain(r, 'BETA', &
         'expected BETA >= (GAMMA + 1/2)^2/4, the bound of unconditional stability', &
         'use GAMMA 0.5 with BETA 0.25')
   end subroutine read_dynamics

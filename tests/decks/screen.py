@@ -58,6 +58,14 @@ def wedge():
         return file.read()
 
 
+def stiff():
+    """Bars of which one is 1e12 times as stiff, for a scheme that takes its forces from it."""
+    path = os.path.join(TMP, "stiff.k")
+    make_bars.write(path, nx=20, young2=1.0e15, scheme="NSGENALPHA")
+    with open(path) as file:
+        return file.read()
+
+
 SPIN = "*INITIAL_VELOCITY_GENERATION", "2,2,2.0,0.0,0.0", "0.5,5.5,0.0,0.0,0.0,1.0"
 # kind: deck, what its line says of place, step and remedy
 KINDS = {
@@ -66,6 +74,7 @@ KINDS = {
         lambda: GAMMA_CARD.sub(r"\g<1>1,0.5\n", TIME_CARD.sub("", lesson())),
         r"choose SCHEME THETA",
     ),
+    "balance": (stiff, r"step \d+, time \S+: stiff and light.*take less"),
     "overlap": (lambda: from_behind("segments", 60.0).text(), r"node \d+; .*step \d+, time \S+: take"),
     "rotation": (lambda: blocks(*SPIN, tend=0.1), r"element \d+ .*step \d+, time .*end the run"),
     "wedging": (wedge, r"node \d+, step \d+, time \S+: .*try"),
