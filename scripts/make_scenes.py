@@ -7,6 +7,7 @@
     incline        a block on a plane; gravity turns it by an angle near that of friction
     pushed         a block on a plane, pushed by a force that grows
     chain          a bar hits a row of equal bars: the last one flies off
+    oblique        the middle of a wide block that meets a held body obliquely
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
 
 Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
@@ -367,6 +368,51 @@ def chain(o, bars=3, n=20, v=1.0, steps_apart=5):
     return text, {"dt": dt, "tend": tend, "bars": bars, "v": v}
 
 
+def oblique(o, n=12, wide=40, v=1.0, vt=1.0, mu=0.3, poisson=1.0 / 3.0, touch=0.0, tend=None):
+    """A block of wide x n elements of side h falls on a held body at (vt, -v): until sides and
+    back are heard of, its middle is a layer on a wall (analytic.Oblique). c_p 1000, rho c_p 1,
+    plane strain; n elements are always 12 long. The touch is a fraction of a step after t = 0.
+    """
+    from analytic import Layer, Oblique  # needs numpy, which the other scenes do not
+
+    c, length, density = 1000.0, 12.0, 1.0e-3
+    h = length / n
+    dt, width = step(o, h, c), wide * h
+    tend = tend if tend else math.floor(0.5 * width / c / dt + 1.0e-9) * dt
+    young = density * c**2 * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (1.0 - poisson)
+    nodes, elements = grid(o, 0.0, touch * dt * v, width, length, wide, n, 1, 1, 1)
+    low, cells = grid(
+        o, -h, -h, width + 4.0 * h, h, 1, 1, 2, 1 + len(nodes), 1 + len(elements)
+    )
+    foot = [i for i, _, y in nodes[:: n + 1]]
+    middle = foot[wide // 2]
+    text = deck(
+        o,
+        "oblique impact",
+        nodes + low,
+        elements + cells,
+        2 * [(density, young, poisson)],
+        controls(
+            tend, dt, o, ["GLSTAT", "NODOUT=%r" % dt, "NCFORC=%r" % dt, "RCFORC=%r" % dt]
+        ),
+        ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,,,%r" % mu]
+        + node_set(9, [i for i, _, _ in low])
+        + ["*BOUNDARY_SPC_SET", "9,,1,1"]
+        + ["*INITIAL_VELOCITY_GENERATION", "1,2,,%r,%r" % turned(o, vt, -v), ""]
+        + history([middle]),
+    )
+    shear = (0.5 * (1.0 - 2.0 * poisson) / (1.0 - poisson)) ** 0.5  # c_s/c_p
+    layer = Layer(1.0, shear, v, vt, 2.0 * length / c, 2.0 * length / (shear * c))
+    return text, {
+        "dt": dt,
+        "tend": tend,
+        "middle": middle,
+        "share": h,
+        "touch": touch * dt,
+        "exact": Oblique(layer, mu),
+    }
+
+
 def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     """A body over a plane at a gap of 0 or 1e-15, without load: no force may appear."""
     dt = step(o, 1.0 / n, 100.0)
@@ -383,7 +429,7 @@ def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     return text, {"dt": dt, "tend": tend}
 
 
-SCENES = {f.__name__: f for f in (wall, bouncing, sliding, incline, pushed, chain, drift)}
+SCENES = {f.__name__: f for f in (wall, bouncing, sliding, incline, pushed, chain, oblique, drift)}
 
 
 def write(path, scene, **options):
