@@ -8,6 +8,8 @@
     pushed         a block on a plane, pushed by a force that grows
     chain          a bar hits a row of equal bars: the last one flies off
     oblique        the middle of a wide block that meets a held body obliquely
+    block          a block thrown obliquely at a rigid plane: its foot slips and sticks
+    disc           a disc thrown obliquely at a rigid plane: contact that grows, as of Hertz
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
 
 Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
@@ -413,6 +415,69 @@ def oblique(o, n=12, wide=40, v=1.0, vt=1.0, mu=0.3, poisson=1.0 / 3.0, touch=0.
     }
 
 
+def thrown(o, nodes, elements, h, title, lowest, mu, v, vt, gap, poisson, tend):
+    """A body of density 1 and c_p 100 thrown at the plane y = -gap."""
+    c, density = 100.0, 1.0
+    dt = step(o, h, c)
+    tend = math.ceil(tend / dt - 1.0e-9) * dt
+    young = density * c**2 * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (1.0 - poisson)
+    text = deck(
+        o,
+        title,
+        nodes,
+        elements,
+        [(density, young, poisson)],
+        controls(tend, dt, o, ["GLSTAT", "MATSUM", "NODOUT", "RWFORC=%r" % dt]),
+        plane(o, 0.0, -gap, 0.0, 1.0, mu) + moving(o, vt, -v) + history([lowest]),
+    )
+    return text, {"dt": dt, "tend": tend, "lowest": lowest, "v": math.hypot(v, vt)}
+
+
+def block(o, n=16, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.05):
+    """A unit block of n x n elements; no closed solution: compared with a fine mesh."""
+    nodes, elements = grid(o, 0.0, 0.0, 1.0, 1.0, n, n, 1, 1, 1)
+    middle = 1 + (n // 2) * (n + 1)
+    return thrown(
+        o, nodes, elements, 1.0 / n, "thrown block", middle, mu, v, vt, gap, poisson, tend
+    )
+
+
+def disc(o, n=8, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.12, radius=0.5):
+    """A disc: a square of n x n elements (n even) in n/2 rings of 4 n; no closed solution in the
+    plane: compared with a fine mesh. Courant number with the side of the elements at the rim."""
+    core, rings, around = 0.5 * radius / math.sqrt(2.0), max(1, n // 2), 4 * n
+    nodes, elements = grid(
+        o, -core, radius - core, 2.0 * core, 2.0 * core, n, n, 1, 1, 1
+    )
+
+    def on_core(k):  # node of the square's edge, counter-clockwise from its lower left corner
+        side, m = divmod(k % around, n)
+        i, j = ((m, 0), (n, m), (n - m, n), (0, n - m))[side]
+        return 1 + i * (n + 1) + j
+
+    place = {i: (x, y) for i, x, y in nodes}
+    ring = [[on_core(k) for k in range(around)]]
+    for r in range(1, rings + 1):
+        ring.append([(n + 1) ** 2 + (r - 1) * around + k + 1 for k in range(around)])
+        for k, number in enumerate(ring[-1]):
+            x, y = place[ring[0][k]]
+            angle = math.pi * (-0.75 + 2.0 * k / around)
+            w = r / rings
+            edge = radius * math.cos(angle), radius + radius * math.sin(angle)
+            nodes.append((number, x + w * (edge[0] - x), y + w * (edge[1] - y)))
+    for inner, outer in zip(ring, ring[1:]):
+        for k in range(around):
+            m = (k + 1) % around
+            a, b, c, d = inner[k], outer[k], outer[m], inner[m]
+            for corner in [(a, b, c), (a, c, d)] if o["triangles"] else [(a, b, c, d)]:
+                elements.append(
+                    (len(elements) + 1, 1) + (corner[::-1] if o["mirror"] else corner)
+                )
+    side = 2.0 * math.pi * radius / around
+    lowest = ring[-1][n // 2]
+    return thrown(o, nodes, elements, side, "thrown disc", lowest, mu, v, vt, gap, poisson, tend)
+
+
 def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     """A body over a plane at a gap of 0 or 1e-15, without load: no force may appear."""
     dt = step(o, 1.0 / n, 100.0)
@@ -429,7 +494,10 @@ def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     return text, {"dt": dt, "tend": tend}
 
 
-SCENES = {f.__name__: f for f in (wall, bouncing, sliding, incline, pushed, chain, oblique, drift)}
+SCENES = {
+    f.__name__: f
+    for f in (wall, bouncing, sliding, incline, pushed, chain, oblique, block, disc, drift)
+}
 
 
 def write(path, scene, **options):
