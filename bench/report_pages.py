@@ -331,9 +331,10 @@ def write_choose(results, about, out):
     for need in NEEDS:
         lines += need_lines(results, about, need)
     grown = sorted({common.label(r) for r in results if r.get("growth")})
-    lines += ["## Not to take for impacts", ""]
+    lines += ["## Warnings and failures of these runs", ""]
     lines.append(
-        "- Energy grew, and the log said so, in some run of: %s." % (", ".join(grown) or "none")
+        "- Energy grew, and the log said so, in some run of: %s. By how much: the error of the energy "
+        "in the curves, the growth in the atlas." % (", ".join(grown) or "none")
     )
     bad = sorted({common.label(r) for r in results if "failed" in r})
     lines.append("- Some run failed, see [index.md](index.md): %s." % (", ".join(bad) or "none"))

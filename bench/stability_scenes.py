@@ -1,6 +1,6 @@
 """Scenes of the stability atlas: each writes its deck and says by what a run of it is judged:
-data for the comparison, whether it has an exact solution, the bound of its error, friction, the
-shortest edge, the way of a step."""
+data for the comparison, whether it has an exact solution, the bound of its error, friction,
+the way of a step."""
 
 import math
 
@@ -53,7 +53,6 @@ def bars(path, scheme, o):
         "exact": options.get("poisson", 0.0) == 0.0,
         "bound": (1.0 + courant) / n,
         "mu": options.get("mu", 0.0),
-        "edge": min(width, options.get("height", width)) * options.get("scale_length", 1.0),
         "way": 2.0 * options["v0"] * meta["dt"],
     }
 
@@ -79,7 +78,6 @@ def wall(path, scheme, o):
         "exact": not poisson,
         "bound": (1.0 + courant) / 20,
         "mu": 0.0,
-        "edge": 0.5,
         "way": meta["dt"],
     }
 
@@ -103,7 +101,6 @@ def block(path, scheme, o):
         "bound": bound,
         "mu": mu,
         "base": base,
-        "edge": 0.25,
         "way": meta["g"] * meta["tend"] * dt,
     }
 
@@ -122,7 +119,6 @@ def oblique(path, scheme, o):
         "oblique": courant <= 1.0,
         "bound": (1.0 + courant) / 10,
         "mu": mu,
-        "edge": 2.0,
         "way": meta["dt"],
     }
 
@@ -131,7 +127,7 @@ def drift(path, scheme, o):
     """A body that glides along a plane at a gap of nothing: no force may appear."""
     meta = make_scenes.write(path, "drift", gap=o["gap"], v=1.0, **scheme)
     way = 100.0 * meta["dt"]
-    return {"meta": meta, "exact": False, "bound": 0.0, "mu": 0.5, "edge": 0.25, "way": way}
+    return {"meta": meta, "exact": False, "bound": 0.0, "mu": 0.5, "way": way}
 
 
 def bouncing(path, scheme, o):
@@ -147,7 +143,7 @@ def bouncing(path, scheme, o):
         **scheme
     )
     way = 2.0 * meta["exact"].gravity * meta["exact"].fall * meta["dt"]
-    return {"meta": meta, "exact": False, "bound": 0.0, "mu": 0.0, "edge": 0.5, "way": way}
+    return {"meta": meta, "exact": False, "bound": 0.0, "mu": 0.0, "way": way}
 
 
 SCENES = {f.__name__: f for f in (bars, wall, block, oblique, drift, bouncing)}
