@@ -126,34 +126,35 @@ def sweep(work, tasks, key, store, jobs):
 
 
 def label(run):
-    """Short name of a combination, a dictionary or (scheme, theta, mass, redist): THETA D*,
-    NEWMARK C, THETA 0.55 C."""
+    """Short name of a combination, a dictionary or (method, mass, redist): THETA D*, NEWMARK C,
+    THETA 0.55 C."""
     if isinstance(run, tuple):
-        run = dict(zip(("scheme", "theta", "mass", "redist"), run))
-    theta = "" if run["theta"] == 0.5 else " %g" % run["theta"]
-    return "%s%s %s%s" % (run["scheme"], theta, run["mass"][0], "*" if run["redist"] else "")
+        run = dict(zip(("method", "mass", "redist"), run))
+    return "%s %s%s" % (run["method"], run["mass"][0], "*" if run["redist"] else "")
 
 
-def study_arguments(words):
-    """Options that the studies share."""
+def study_parser(words):
+    """Parser of the options that the studies share."""
     parser = argparse.ArgumentParser(
         description=words, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--quick", action="store_true", help="few runs, into build/")
+    parser.add_argument("--reduced", action="store_true", help="part of the full study")
     parser.add_argument("--fresh", action="store_true", help="forget earlier runs")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--out", help="folder of the report")
     parser.add_argument("--store", help="folder of the kept results")
-    return parser.parse_args()
+    return parser
 
 
 def study_folders(name, a):
     """(folder of the kept results, folder of the report) of a study; made, emptied if fresh."""
-    store = a.store or os.path.join(ROOT, "build", name, "quick" if a.quick else "full")
+    size = "quick" if a.quick else "reduced" if a.reduced else "full"
+    store = a.store or os.path.join(ROOT, "build", name, size)
     out = a.out or (store if a.quick else os.path.join(ROOT, "doc", name))
     os.makedirs(store, exist_ok=True)
     os.makedirs(out, exist_ok=True)
-    for name in ("runs.jsonl", "start.json"):
+    for name in ("runs.jsonl", "start.json", "peers.jsonl"):
         kept = os.path.join(store, name)
         if a.fresh and os.path.exists(kept):
             os.remove(kept)

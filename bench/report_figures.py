@@ -6,15 +6,33 @@ import os
 import common
 import numpy as np
 
+from combinations import METHODS
+from report_scenes import SCENES
+
 MEASURES = {
     "err": "displacement",
-    "energy": "energy",
+    "e_v": "velocity",
     "e_R2": "force, mean of two steps",
     "e_R": "force, raw",
+    "energy": "energy",
+    "work": "work of friction",
 }
 ROUND_OFF = 1.0e-7  # errors below it are drawn at the lower edge, with their value
-COLOUR = {"CONSISTENT": "#0072B2", "LUMPED": "#009E73", "DISPERSION": "#D55E00"}
-DASH = {"THETA": "-", "NEWMARK": (0, (4, 2))}
+NAMED = 9  # lines of a panel that have a name and a colour
+ALWAYS = ("THETA", "CONSISTENT", 0)  # the method of the paper
+COLOUR = {
+    "THETA": "#0072B2",
+    "NEWMARK": "#000000",
+    "HHT": "#CC79A7",
+    "GENALPHA": "#882255",
+    "MOREAU": "#E69F00",
+    "PAOLI": "#D55E00",
+    "CDLAGRANGE": "#999933",
+    "THETAPV": "#56B4E9",
+    "NSGENALPHA": "#44AA99",
+    "CSNEWMARK": "#117733",
+}
+MARK = {"CONSISTENT": "o", "LUMPED": "s", "DISPERSION": "D"}
 
 
 def front(runs, name):
@@ -28,21 +46,33 @@ def front(runs, name):
 
 
 def combination(run):
-    return run["scheme"], run["theta"], run["mass"], run["redist"]
+    return run["method"], run["mass"], run["redist"]
 
 
-def style(scheme):
-    """Colour: mass; dashes: NEWMARK, dots: theta over 1/2; open marks: massless nodes."""
-    name, theta, mass, redist = scheme
-    colour = COLOUR[mass]
+def style(pair):
+    """Colour: scheme; dashes: a variant of it; marks: mass, open with massless nodes."""
+    name, mass, redist = pair
+    colour = COLOUR[METHODS[name][0]]
     return {
         "color": colour,
-        "linestyle": (0, (1, 1.5)) if theta > 0.5 else DASH[name],
-        "marker": "o" if name == "THETA" else "s",
+        "linestyle": "-" if name == METHODS[name][0] else (0, (4, 2)),
+        "marker": MARK[mass],
         "markerfacecolor": "white" if redist else colour,
         "markersize": 3.6,
         "linewidth": 1.4,
     }
+
+
+def to_name(fronts, name):
+    """Combinations of a panel that have a name: those of the front of all, then the lowest."""
+    every = [dict(r, pair=pair) for pair, runs in fronts.items() for r in runs]
+    found = [r["pair"] for r in reversed(front(every, name))]
+    found += sorted(fronts, key=lambda pair: fronts[pair][-1][name])
+    chosen = [ALWAYS] if ALWAYS in fronts else []
+    for pair in found:
+        if pair not in chosen and len(chosen) < NAMED:
+            chosen.append(pair)
+    return chosen
 
 
 def spread(wanted, least):
@@ -64,17 +94,27 @@ def spread(wanted, least):
     return out
 
 
-def draw_panel(axes, fronts, name, started, low):
-    """Fronts {scheme: runs} of a measure; each ends at the right edge, where its name stands."""
-    right = 1.15 * max(r["cpu"] for runs in fronts.values() for r in runs)
-    ends = {}
-    for scheme, runs in fronts.items():
+def draw_panel(axes, fronts, others, name, started, low):
+    """Fronts {combination: runs} of a measure; each that is named ends at the right edge, where
+    its name stands. Points of other programs are crosses."""
+    others = [r for r in others if r.get(name)]
+    right = 1.15 * max(r["cpu"] for runs in list(fronts.values()) + [others] for r in runs)
+    ends, named = {}, to_name(fronts, name)
+    for pair, runs in sorted(fronts.items(), key=lambda item: item[0] in named):
         times = [r["cpu"] for r in runs]
         errors = [max(r[name], low) for r in runs]
-        look = style(scheme)
+        if pair not in named:
+            axes.plot(times, errors, color="#cccccc", lw=0.7, marker=".", ms=2.0)
+            continue
+        look = style(pair)
         axes.plot(times, errors, **look)
         axes.plot([times[-1], right], 2 * [errors[-1]], color=look["color"], lw=0.6, alpha=0.35)
-        ends[scheme] = errors[-1]
+        ends[pair] = errors[-1]
+    for r in others:
+        axes.plot(r["cpu"], max(r[name], low), "x", color="#E60000", ms=7.0)
+        at = r["cpu"], max(r[name], low)
+        words = dict(xytext=(-6, 4), textcoords="offset points", ha="right")
+        axes.annotate(r["program"], at, fontsize=7.5, color="#E60000", **words)
     axes.axvline(started, color="#888888", lw=1.2)
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -117,7 +157,7 @@ def name_lines(axes, fronts, ends, name, low):
         )
 
 
-def write_scene(results, scene, title, schemes, started, path):
+def write_scene(results, others, scene, pairs, started, path):
     """The figure of a scene: a panel for each measure that has values."""
     import matplotlib
 
@@ -125,29 +165,31 @@ def write_scene(results, scene, title, schemes, started, path):
     import matplotlib.pyplot as plt
 
     runs = [r for r in results if r["scene"] == scene and "failed" not in r]
+    others = [r for r in others if r["scene"] == scene and "failed" not in r]
     panels = {}
     for name in MEASURES:
-        fronts = {s: front([r for r in runs if combination(r) == s], name) for s in schemes}
-        fronts = {s: found for s, found in fronts.items() if found}
+        fronts = {p: front([r for r in runs if combination(r) == p], name) for p in pairs}
+        fronts = {p: found for p, found in fronts.items() if found}
         if fronts:
             panels[name] = fronts
     rows = (len(panels) + 1) // 2
     height = 0.9 + 4.6 * rows
     figure, grid = plt.subplots(rows, 2, figsize=(14.5, height), squeeze=False)
-    figure.suptitle("%s: %s" % (scene, title), fontsize=13, y=1.0 - 0.28 / height)
-    figure.subplots_adjust(0.055, 0.6 / height, 0.885, 1.0 - 1.1 / height, 0.37, 0.28)
+    figure.suptitle("%s: %s" % (scene, SCENES[scene]), fontsize=13, y=1.0 - 0.28 / height)
+    figure.subplots_adjust(0.055, 0.6 / height, 0.865, 1.0 - 1.1 / height, 0.42, 0.28)
     figure.canvas.draw()
     for axes, (name, fronts) in zip(grid.flat, panels.items()):
         values = [r[name] for found in fronts.values() for r in found if r[name] > ROUND_OFF]
         low = 10.0 ** np.floor(np.log10(min(values, default=ROUND_OFF)))
         if min(r[name] for found in fronts.values() for r in found) < low:
             low /= 3.0
-        draw_panel(axes, fronts, name, started, low)
+        draw_panel(axes, fronts, others, name, started, low)
     for axes in grid.flat[len(panels) :]:
         axes.axis("off")
     words = (
-        "Fronts of the best runs. Colour: mass; dashed: NEWMARK; dotted: theta over 1/2; open "
-        "marks: massless contact nodes (*); grey line: a start without steps, %.1f ms."
+        "Fronts of the best runs; named: those on the front of all, the lowest, and THETA C. Marks: "
+        "mass (o C, squares L, diamonds D), open: massless contact nodes (*); grey line: a start "
+        "without steps, %.1f ms."
     )
     place = dict(x=0.055, y=1.0 - 0.62 / height, va="center", color="#444444")
     figure.text(s=words % (1e3 * started), fontsize=9.5, **place)
@@ -155,10 +197,10 @@ def write_scene(results, scene, title, schemes, started, path):
     plt.close(figure)
 
 
-def write_figures(results, scenes, schemes, started, out):
-    """Work-precision figures, one a scene: {scene: title}; returns their paths."""
+def write_figures(results, others, pairs, started, out):
+    """Work-precision figures, one a scene; returns their paths."""
     paths = []
-    for scene, title in scenes.items():
+    for scene in SCENES:
         paths.append(os.path.join(out, scene + ".png"))
-        write_scene(results, scene, title, schemes, started, paths[-1])
+        write_scene(results, others, scene, pairs, started, paths[-1])
     return paths

@@ -18,6 +18,7 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 import compare
 import make_bars
 
+TOUCHES = (0.0, 0.25, 0.5, 0.75)
 ROWS = [
     ("THETA consistent", dict(), (0.0,)),
     ("THETA dispersion, Courant 1", dict(mass="DISPERSION", courant=1.0), (0.0,)),
@@ -25,19 +26,33 @@ ROWS = [
     (
         "THETA dispersion, massless, 1e-5",
         dict(mass="DISPERSION", redist=1),
-        (0.0, 0.25, 0.5, 0.75),
+        TOUCHES,
     ),
     (
         "THETA dispersion, massless, 5e-5",
         dict(mass="DISPERSION", redist=1, dt=5.0e-5),
-        (0.0, 0.25, 0.5, 0.75),
+        TOUCHES,
     ),
     (
         "the same, a row every step",
         dict(mass="DISPERSION", redist=1, dt=5.0e-5, output="step"),
-        (0.0, 0.25, 0.5, 0.75),
+        TOUCHES,
     ),
     ("NEWMARK consistent", dict(scheme="NEWMARK"), (0.0,)),
+]
+# The other schemes at Courant number 1/2, mean over touches within a step.
+ROWS += [
+    ("%s %s, 5e-5" % (name, mass.lower()), dict(setting, mass=mass, dt=5.0e-5), TOUCHES)
+    for name, mass, setting in (
+        ("HHT -0.3", "CONSISTENT", dict(scheme="HHT", alpha=-0.3)),
+        ("GENALPHA 0.8", "CONSISTENT", dict(scheme="GENALPHA", rho=0.8)),
+        ("MOREAU", "CONSISTENT", dict(scheme="MOREAU")),
+        ("PAOLI", "DISPERSION", dict(scheme="PAOLI")),
+        ("CDLAGRANGE", "LUMPED", dict(scheme="CDLAGRANGE")),
+        ("THETAPV", "CONSISTENT", dict(scheme="THETAPV")),
+        ("NSGENALPHA 0.8", "CONSISTENT", dict(scheme="NSGENALPHA", setting={"rhoinf": 0.8})),
+        ("CSNEWMARK", "CONSISTENT", dict(scheme="CSNEWMARK")),
+    )
 ]
 
 

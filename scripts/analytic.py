@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Exact solutions of longitudinal impact of elastic bars (1-D waves, no friction).
+"""Exact solutions of impact of elastic bars (1-D waves, no friction), and of layers that meet
+obliquely with Coulomb friction.
 
 Symbols and dimensions: L length [L], c wave speed [L T-1], rho density [M L-3], A section [L2],
 Z = rho c A impedance [M T-1], v velocity [L T-1], N axial force, tension positive [F],
@@ -10,6 +11,7 @@ Graff 1975, Wave Motion in Elastic Solids; Goldsmith 1960, Impact).
 
     TwoBars         closed form: two identical bars at +v0 and -v0, or one bar on a rigid wall
     Impact          any two bars, by characteristics: force, displacements, energies, fields
+    Oblique         two layers, half spaces or a wall: plane P and S waves, stick or slip
     unequal_lengths, staircase, interface, touch_time: closed forms
 """
 
@@ -374,6 +376,74 @@ def impact_of(meta, tend=None):
     if meta["case"] == "wall":
         return wall_impact(bars[0], meta["gap"], tend)
     return Impact(bars[0], bars[1], meta["gap"], tend)
+
+
+# ---------------------------------------------------------------- oblique impact
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A plane layer that moves as one, its free back face parallel to its contact face.
+
+    P and S waves of normal incidence travel through it independently: a face without traction
+    would move at w(t) = w(t - T) - 2 F(t - T)/Z, F the traction on the body at its face,
+    T = 2 L/c the time of a return (d'Alembert); a half space has L infinite."""
+
+    pressure_impedance: float  # rho c_p [M L-2 T-1]
+    shear_impedance: float  # rho c_s
+    normal: float  # velocity toward the other body [L T-1]
+    tangential: float
+    pressure_return: float = float("inf")  # 2 L/c_p [T]
+    shear_return: float = float("inf")  # 2 L/c_s
+
+
+class Oblique:
+    """A layer on a rigid wall or on another layer, gap 0 at t = 0, Coulomb friction.
+
+    With Z* = Z_A Z_B/(Z_A + Z_B), or Z_A on a wall: p = max(0, Z_p* w_n), tau = Z_s* w_t cut to
+    mu p, w relative and without traction. First instant: it sticks where Z_s* |V_t| <= mu Z_p*
+    V_n. Valid as long as the faces have not parted and come back."""
+
+    def __init__(self, layer, mu, other=None):
+        self.layer, self.mu, self.other = layer, mu, other
+
+    def _untouched(self, t, body, normal):
+        """Velocity of a face without traction from now on; towards the other body (normal), or
+        along A's direction of slip [L T-1]."""
+        z, back = (
+            (body.pressure_impedance, body.pressure_return)
+            if normal
+            else (body.shear_impedance, body.shear_return)
+        )
+        if t < back:
+            return body.normal if normal else body.tangential
+        force = self.traction(t - back)[0 if normal else 1]
+        sign = 1.0 if normal or body is self.layer else -1.0
+        return self._untouched(t - back, body, normal) - 2.0 * sign * force / z
+
+    def _pair(self, t, normal):
+        """(relative velocity without traction, Z*) of one direction."""
+        a, b = self.layer, self.other
+        z = a.pressure_impedance if normal else a.shear_impedance
+        w = self._untouched(t, a, normal)
+        if b is not None:
+            z2 = b.pressure_impedance if normal else b.shear_impedance
+            other = self._untouched(t, b, normal)
+            w += other if normal else -other
+            z = z * z2 / (z + z2)
+        return w, z
+
+    def traction(self, t):
+        """(p, tau) [F L-2] at a time t >= 0: pressure, and friction against the motion of A."""
+        w, z = self._pair(t, True)
+        p = max(0.0, z * w)
+        w, z = self._pair(t, False)
+        return p, min(max(z * w, -self.mu * p), self.mu * p)
+
+    def slip(self, t):
+        """Speed of A's face along B's [L T-1]."""
+        w, z = self._pair(t, False)
+        return w - self.traction(t)[1] / z
 
 
 # ---------------------------------------------------------------- gravity, friction

@@ -7,6 +7,9 @@
     incline        a block on a plane; gravity turns it by an angle near that of friction
     pushed         a block on a plane, pushed by a force that grows
     chain          a bar hits a row of equal bars: the last one flies off
+    oblique        the middle of a wide block that meets a held body obliquely
+    block          a block thrown obliquely at a rigid plane: its foot slips and sticks
+    disc           a disc thrown obliquely at a rigid plane: contact that grows, as of Hertz
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
 
 Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
@@ -367,6 +370,114 @@ def chain(o, bars=3, n=20, v=1.0, steps_apart=5):
     return text, {"dt": dt, "tend": tend, "bars": bars, "v": v}
 
 
+def oblique(o, n=12, wide=40, v=1.0, vt=1.0, mu=0.3, poisson=1.0 / 3.0, touch=0.0, tend=None):
+    """A block of wide x n elements of side h falls on a held body at (vt, -v): until sides and
+    back are heard of, its middle is a layer on a wall (analytic.Oblique). c_p 1000, rho c_p 1,
+    plane strain; n elements are always 12 long. The touch is a fraction of a step after t = 0.
+    """
+    from analytic import Layer, Oblique  # needs numpy, which the other scenes do not
+
+    c, length, density = 1000.0, 12.0, 1.0e-3
+    h = length / n
+    dt, width = step(o, h, c), wide * h
+    tend = tend if tend else math.floor(0.5 * width / c / dt + 1.0e-9) * dt
+    young = density * c**2 * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (1.0 - poisson)
+    nodes, elements = grid(o, 0.0, touch * dt * v, width, length, wide, n, 1, 1, 1)
+    low, cells = grid(
+        o, -h, -h, width + 4.0 * h, h, 1, 1, 2, 1 + len(nodes), 1 + len(elements)
+    )
+    foot = [i for i, _, y in nodes[:: n + 1]]
+    middle = foot[wide // 2]
+    text = deck(
+        o,
+        "oblique impact",
+        nodes + low,
+        elements + cells,
+        2 * [(density, young, poisson)],
+        controls(
+            tend, dt, o, ["GLSTAT", "NODOUT=%r" % dt, "NCFORC=%r" % dt, "RCFORC=%r" % dt]
+        ),
+        ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,,,%r" % mu]
+        + node_set(9, [i for i, _, _ in low])
+        + ["*BOUNDARY_SPC_SET", "9,,1,1"]
+        + ["*INITIAL_VELOCITY_GENERATION", "1,2,,%r,%r" % turned(o, vt, -v), ""]
+        + history([middle]),
+    )
+    shear = (0.5 * (1.0 - 2.0 * poisson) / (1.0 - poisson)) ** 0.5  # c_s/c_p
+    layer = Layer(1.0, shear, v, vt, 2.0 * length / c, 2.0 * length / (shear * c))
+    return text, {
+        "dt": dt,
+        "tend": tend,
+        "middle": middle,
+        "share": h,
+        "touch": touch * dt,
+        "exact": Oblique(layer, mu),
+    }
+
+
+def thrown(o, nodes, elements, h, title, lowest, mu, v, vt, gap, poisson, tend):
+    """A body of density 1 and c_p 100 thrown at the plane y = -gap."""
+    c, density = 100.0, 1.0
+    dt = step(o, h, c)
+    tend = math.ceil(tend / dt - 1.0e-9) * dt
+    young = density * c**2 * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (1.0 - poisson)
+    text = deck(
+        o,
+        title,
+        nodes,
+        elements,
+        [(density, young, poisson)],
+        controls(tend, dt, o, ["GLSTAT", "MATSUM", "NODOUT", "RWFORC=%r" % dt]),
+        plane(o, 0.0, -gap, 0.0, 1.0, mu) + moving(o, vt, -v) + history([lowest]),
+    )
+    return text, {"dt": dt, "tend": tend, "lowest": lowest, "v": math.hypot(v, vt)}
+
+
+def block(o, n=16, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.05):
+    """A unit block of n x n elements; no closed solution: compared with a fine mesh."""
+    nodes, elements = grid(o, 0.0, 0.0, 1.0, 1.0, n, n, 1, 1, 1)
+    middle = 1 + (n // 2) * (n + 1)
+    return thrown(
+        o, nodes, elements, 1.0 / n, "thrown block", middle, mu, v, vt, gap, poisson, tend
+    )
+
+
+def disc(o, n=8, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.12, radius=0.5):
+    """A disc: a square of n x n elements (n even) in n/2 rings of 4 n; no closed solution in the
+    plane: compared with a fine mesh. Courant number with the side of the elements at the rim."""
+    core, rings, around = 0.5 * radius / math.sqrt(2.0), max(1, n // 2), 4 * n
+    nodes, elements = grid(
+        o, -core, radius - core, 2.0 * core, 2.0 * core, n, n, 1, 1, 1
+    )
+
+    def on_core(k):  # node of the square's edge, counter-clockwise from its lower left corner
+        side, m = divmod(k % around, n)
+        i, j = ((m, 0), (n, m), (n - m, n), (0, n - m))[side]
+        return 1 + i * (n + 1) + j
+
+    place = {i: (x, y) for i, x, y in nodes}
+    ring = [[on_core(k) for k in range(around)]]
+    for r in range(1, rings + 1):
+        ring.append([(n + 1) ** 2 + (r - 1) * around + k + 1 for k in range(around)])
+        for k, number in enumerate(ring[-1]):
+            x, y = place[ring[0][k]]
+            angle = math.pi * (-0.75 + 2.0 * k / around)
+            w = r / rings
+            edge = radius * math.cos(angle), radius + radius * math.sin(angle)
+            nodes.append((number, x + w * (edge[0] - x), y + w * (edge[1] - y)))
+    for inner, outer in zip(ring, ring[1:]):
+        for k in range(around):
+            m = (k + 1) % around
+            a, b, c, d = inner[k], outer[k], outer[m], inner[m]
+            for corner in [(a, b, c), (a, c, d)] if o["triangles"] else [(a, b, c, d)]:
+                elements.append(
+                    (len(elements) + 1, 1) + (corner[::-1] if o["mirror"] else corner)
+                )
+    side = 2.0 * math.pi * radius / around
+    lowest = ring[-1][n // 2]
+    return thrown(o, nodes, elements, side, "thrown disc", lowest, mu, v, vt, gap, poisson, tend)
+
+
 def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     """A body over a plane at a gap of 0 or 1e-15, without load: no force may appear."""
     dt = step(o, 1.0 / n, 100.0)
@@ -383,7 +494,10 @@ def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     return text, {"dt": dt, "tend": tend}
 
 
-SCENES = {f.__name__: f for f in (wall, bouncing, sliding, incline, pushed, chain, drift)}
+SCENES = {
+    f.__name__: f
+    for f in (wall, bouncing, sliding, incline, pushed, chain, oblique, block, disc, drift)
+}
 
 
 def write(path, scene, **options):
