@@ -59,8 +59,8 @@ def ask_program(pair):
     run = dict(zip(("method", "mass", "redist"), pair))
     with tempfile.TemporaryDirectory() as folder:
         deck = os.path.join(folder, "ask.k")
-        # Courant 1/2 and a coarse mesh: no explicit scheme has a limit below it.
-        make_bars.write(deck, nx=4, courant=0.5, tables=["glstat"], **bar_options(run))
+        # Courant 1/2 and elements not longer than high: no explicit scheme has a limit below it.
+        make_bars.write(deck, nx=40, courant=0.5, tables=["glstat"], **bar_options(run))
         done = common.run(deck, os.path.join(folder, "out"), limit=60)
         said = done["errors"].replace(folder + "/", "").splitlines() or ["no word"]
         if done["code"] != 2:

@@ -54,6 +54,7 @@ def bars(path, scheme, o):
         "bound": (1.0 + courant) / n,
         "mu": options.get("mu", 0.0),
         "way": 2.0 * options["v0"] * meta["dt"],
+        "edge": width,
     }
 
 

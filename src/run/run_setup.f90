@@ -155,7 +155,7 @@ contains
     run%plan%refinement = run%plan%refined_from < run%plan%full_steps + &
         merge(1, 0, run%plan%last_step > zero)
     if (allocated(run%correction)) return
-    if (run%solver%takes_diagonal) then
+    if (run%solver%takes_diagonal .and. .not. allocated(run%other)) then
       call add_feature(run%plan, 'refinement', .false., 'the effective matrix is diagonal')
       return
     end if

@@ -143,9 +143,9 @@ contains
     controls%alpha = deck%real(r, 'ALPHA')
     if (controls%alpha < -one/3.0_wp) call deck%complain(r, 'ALPHA', &
         'expected a number from -1/3 to below 0: alpha of HHT')
-    if (4.0_wp*controls%beta < (one - near)*(controls%gamma + 0.5_wp)**2) call deck%complain(r, 'BETA', &
-        'expected BETA >= (GAMMA + 1/2)^2/4, the bound of unconditional stability', &
-        'use GAMMA 0.5 with BETA 0.25')
+    if (4.0_wp*controls%beta < (one - near)*(controls%gamma + 0.5_wp)**2) &
+        call deck%complain(r, 'BETA', 'expected BETA >= (GAMMA + 1/2)^2/4, the bound of '// &
+        'unconditional stability', 'use GAMMA 0.5 with BETA 0.25')
   end subroutine read_dynamics
 
   !> Cards of inertia have no place in a static analysis.
