@@ -24,15 +24,20 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), v(:, :), x_free(:, :)
     type(status_t), intent(inout) :: status
     integer :: a
-    contact%placed = u
-    call place_on_boundary(contact%rows, u, contact%placed)
-    call find_rows(model, contact, contact%placed, x_free)
+    if (contact%rows%n == 0) then
+      call find_rows(model, contact, u, x_free)
+      if (contact%rows%n + contact%spare%n == 0) return
+    else
+      contact%placed = u
+      call place_on_boundary(contact%rows, u, contact%placed)
+      call find_rows(model, contact, contact%placed, x_free)
+      contact%placed = u - contact%placed
+      call correct_gaps(contact%placed, contact%rows)
+      call correct_gaps(contact%placed, contact%spare)
+    end if
     call check_slots(model, contact%rows, status)
     call check_slots(model, contact%spare, status)
     if (failed(status)) return
-    contact%placed = u - contact%placed
-    call correct_gaps(contact%placed, contact%rows)
-    call correct_gaps(contact%placed, contact%spare)
     do a = 1, contact%spare%n
       contact%spare%is_marked(a) = touches(contact, contact%spare, a, v)
     end do

@@ -99,7 +99,10 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     real(wp), intent(inout) :: b(:, :)
-    if (.not. this%is_current) call look_ahead(this, system, state)
+    if (.not. this%is_current) then
+      call predict(size(this%d), weights_of_d(this), state%v, state%a, this%d)
+      call look_ahead(this, system, state)
+    end if
     call add_difference(size(b), this%inertia, this%force, b)
   end subroutine alpha_right_side
 
@@ -110,27 +113,32 @@ contains
     b = b + (x - y)
   end subroutine add_difference
 
+  !> k D - am A0 = w1 V0 + w2 A0.
+  pure function weights_of_d(this) result(weight)
+    class(alpha_t), intent(in) :: this
+    real(wp) :: weight(2)
+    associate (k => this%stage(1)%c_m, h => this%h)
+      weight = [k*h, k*h**2*(half - this%beta) - this%am]
+    end associate
+  end function weights_of_d
+
   !> M (k D - am A0) and K U of a step that begins at the state, and M (A1 - A0) of the one that
   !> has ended there.
   subroutine look_ahead(this, system, state)
     class(alpha_t), intent(inout) :: this
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
-    real(wp) :: k
-    k = this%stage(1)%c_m
-    call predict(size(this%d), k*this%h, k*this%h**2*(half - this%beta) - this%am, state%v, &
-        state%a, this%d)
     call mass_products(system, this%d, this%da, this%inertia, this%m_da)
     this%force = zero
     call subtract_internal_force(system, -one, state%u, this%force)
     this%is_current = .true.
   end subroutine look_ahead
 
-  pure subroutine predict(n, of_v, of_a, v, a, d)
+  pure subroutine predict(n, weight, v, a, d)
     integer, intent(in) :: n
-    real(wp), intent(in) :: of_v, of_a, v(n), a(n)
+    real(wp), intent(in) :: weight(2), v(n), a(n)
     real(wp), intent(out) :: d(n)
-    d = of_v*v + of_a*a
+    d = weight(1)*v + weight(2)*a
   end subroutine predict
 
   !> U1 = U0 + x, A1 = (x - D)/(beta h^2), V1 = V0 + h [(1 - gamma) A0 + gamma A1].
@@ -140,16 +148,16 @@ contains
     real(wp), intent(inout) :: x(:, :)
     type(state_t), intent(inout) :: state
     this%is_current = .false.
-    call update_kernel(size(x), this%h, this%beta, this%gamma, x, state%u, state%v, state%a, &
-        this%da)
+    call update_kernel(size(x), this%h, this%beta, this%gamma, weights_of_d(this), x, &
+        state%u, state%v, state%a, this%da, this%d)
   end subroutine alpha_update
 
-  !> With dA = (x - h V0)/(beta h^2) - A0/(2 beta).
-  pure subroutine update_kernel(n, h, beta, gamma, x, u, v, a, da)
+  !> With dA = (x - h V0)/(beta h^2) - A0/(2 beta); and D of the next step.
+  pure subroutine update_kernel(n, h, beta, gamma, weight, x, u, v, a, da, d)
     integer, intent(in) :: n
-    real(wp), intent(in) :: h, beta, gamma, x(n)
+    real(wp), intent(in) :: h, beta, gamma, weight(2), x(n)
     real(wp), intent(inout) :: u(n), v(n), a(n)
-    real(wp), intent(out) :: da(n)
+    real(wp), intent(out) :: da(n), d(n)
     real(wp) :: of_x, of_a
     integer :: i
     of_x = one/(beta*h**2)
@@ -159,6 +167,7 @@ contains
       v(i) = v(i) + h*(a(i) + gamma*da(i))
       u(i) = u(i) + x(i)
       a(i) = a(i) + da(i)
+      d(i) = weight(1)*v(i) + weight(2)*a(i)
     end do
   end subroutine update_kernel
 
@@ -174,9 +183,8 @@ contains
     if (this%looks_ahead) then
       call swap(this%force, this%force_before)
       call look_ahead(this, system, state)
-      alpha_dissipation = inertia_terms(size(this%da), weight, state%a, this%da, state%du, &
-          this%m_da) + (half - this%af)*change_of_force(size(this%da), state%du, this%force, &
-          this%force_before)
+      alpha_dissipation = all_terms(size(this%da), weight, half - this%af, state%a, this%da, &
+          state%du, this%m_da, this%force, this%force_before)
     else
       this%m_da = zero
       call multiply_mass(system, one, this%da, this%m_da)
@@ -193,17 +201,6 @@ contains
     call move_alloc(kept, b)
   end subroutine swap
 
-  !> dU.(K U1 - K U0).
-  pure real(wp) function change_of_force(n, du, after, before)
-    integer, intent(in) :: n
-    real(wp), intent(in) :: du(n), after(n), before(n)
-    integer :: i
-    change_of_force = zero
-    do i = 1, n
-      change_of_force = change_of_force + du(i)*(after(i) - before(i))
-    end do
-  end function change_of_force
-
   !> M dA.(w1 A1 + w2 dA - w3 dU): d(A.M A/2) is M dA.(A1 - dA/2).
   pure real(wp) function inertia_terms(n, weight, a, da, du, m_da) result(terms)
     integer, intent(in) :: n
@@ -214,6 +211,18 @@ contains
       terms = terms + m_da(i)*(weight(1)*a(i) + weight(2)*da(i) - weight(3)*du(i))
     end do
   end function inertia_terms
+
+  !> The same, and q dU.(K U1 - K U0), in one pass.
+  pure real(wp) function all_terms(n, weight, q, a, da, du, m_da, after, before) result(terms)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: weight(3), q, a(n), da(n), du(n), m_da(n), after(n), before(n)
+    integer :: i
+    terms = zero
+    do i = 1, n
+      terms = terms + (m_da(i)*(weight(1)*a(i) + weight(2)*da(i) - weight(3)*du(i)) &
+          + q*du(i)*(after(i) - before(i)))
+    end do
+  end function all_terms
 
   !> x = U1 - U0, or D + beta h^2 A1 with A1 given or from V1.
   pure real(wp) function alpha_given_motion(this, stage, state, direction, node, kind, value)
