@@ -15,7 +15,8 @@ suffix=-$FLAVOUR
 [ "$FLAVOUR" = release ] && suffix=
 export BIPACT=$ROOT/bin/bipact$suffix PYTHON=$ROOT/.venv/bin/python
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}   # several tests run at once
-JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}
+# nproc counts no more than OMP_NUM_THREADS, which is for each test.
+JOBS=${JOBS:-$(env -u OMP_NUM_THREADS nproc 2>/dev/null || echo 2)}
 LIMIT=${LIMIT:-300}
 [ -x "$PYTHON" ] || PYTHON=$(command -v python3)    # enough for the style check
 [ -x "$BIPACT" ] || echo "note: $BIPACT is not built; make test builds it" >&2

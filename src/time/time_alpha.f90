@@ -15,10 +15,10 @@ module time_alpha
   use assembly_system, only: system_t, multiply_mass, mass_products
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t
-  use model_data, only: model_t, motion_velocity, motion_displacement
+  use model_data, only: model_t
   use model_state, only: state_t
   use time_base, only: scheme_t, stage_t
-  use time_start, only: start_acceleration
+  use time_start, only: start_acceleration, newmark_motion
   implicit none
   private
 
@@ -231,16 +231,8 @@ contains
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value
-    real(wp) :: a1
-    associate (v0 => state%v(direction, node), a0 => state%a(direction, node), h => this%h)
-      if (kind == motion_displacement) then
-        alpha_given_motion = value - state%u(direction, node)
-        return
-      end if
-      a1 = value
-      if (kind == motion_velocity) a1 = ((value - v0)/h - (one - this%gamma)*a0)/this%gamma
-      alpha_given_motion = h*v0 + h**2*((half - this%beta)*a0 + this%beta*a1)
-    end associate
+    alpha_given_motion = newmark_motion(this%h, this%beta, this%gamma, state, direction, node, &
+        kind, value)
   end function alpha_given_motion
 
 end module time_alpha

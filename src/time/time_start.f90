@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What schemes with accelerations need before their first step.
+!> What schemes with accelerations share: their start, and motions that are given.
 module time_start
   use assembly_damping, only: subtract_damping_force
   use assembly_forces, only: subtract_internal_force, add_loads
   use assembly_system, only: system_t, multiply_mass, effective_matrix, clear_fixed
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, half, one
   use base_status, only: status_t, fail, failed, status_numerical
   use linalg_graph, only: block_matrix_t
   use linalg_ldlt, only: ldlt_t
@@ -14,7 +14,7 @@ module time_start
   use model_state, only: state_t
   implicit none
   private
-  public :: start_acceleration
+  public :: start_acceleration, newmark_motion
 
   !> A mass pivot below this share of its diagonal is round-off of a singular mass.
   real(wp), parameter :: null_pivot = 1.0e-12_wp
@@ -80,5 +80,25 @@ contains
       end associate
     end do
   end subroutine give_accelerations
+
+  !> x = U1 - U0 of one dof by Newmark's update with a given end: from its displacement, or
+  !> D + beta h^2 A1, D = h V0 + h^2 (1/2 - beta) A0, with A1 given or from V1 (kind: motion_...
+  !> of model_data).
+  pure real(wp) function newmark_motion(h, beta, gamma, state, direction, node, kind, value)
+    real(wp), intent(in) :: h, beta, gamma
+    type(state_t), intent(in) :: state
+    integer, intent(in) :: direction, node, kind
+    real(wp), intent(in) :: value
+    real(wp) :: a1
+    associate (v0 => state%v(direction, node), a0 => state%a(direction, node))
+      if (kind == motion_displacement) then
+        newmark_motion = value - state%u(direction, node)
+        return
+      end if
+      a1 = value
+      if (kind == motion_velocity) a1 = ((value - v0)/h - (one - gamma)*a0)/gamma
+      newmark_motion = h*v0 + h**2*((half - beta)*a0 + beta*a1)
+    end associate
+  end function newmark_motion
 
 end module time_start

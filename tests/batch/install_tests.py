@@ -244,6 +244,7 @@ def commands():
         what = "%s: %s" % (page, " ".join(words))
         show(what)
         unknown = [w for w in words if re.search(r"\b[A-Z]{3,}\b(?!:)", w)]
+        unknown = [w for w in unknown if w not in PLACES.values()]
         check(not unknown, "%s: what do %s stand for? (PLACES)" % (what, unknown))
         path, *rest = map(place_of, words)
         link = os.path.join(LINKS, os.path.basename(path))
