@@ -17,7 +17,7 @@ module contact_stage
   use contact_rule, only: level_position, level_velocity
   use contact_types, only: contact_t, tally_t
   use contact_velocity, only: find_velocity_rows, keep_pressed_rows, activate_all, &
-      add_restitution
+      add_restitution, largest_component
   use model_data, only: model_t
   implicit none
   private
@@ -100,6 +100,7 @@ contains
     call find_q(contact, x_free)
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
+    contact%largest_velocity = largest_component(size(v, 2), v)
     call start_reactions(contact, .true.)
     call find_reactions(model, contact, force, certificate, status)
     call watch_alternation(contact)

@@ -12,7 +12,8 @@ module contact_velocity
   use model_data, only: model_t
   implicit none
   private
-  public :: find_velocity_rows, keep_pressed_rows, activate_all, add_restitution
+  public :: find_velocity_rows, keep_pressed_rows, activate_all, add_restitution, &
+      largest_component
 
 contains
 
@@ -24,7 +25,7 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), v(:, :), x_free(:, :)
     type(status_t), intent(inout) :: status
     integer :: a
-    if (contact%rows%n == 0) then
+    if (.not. any(contact%rows%u(1, :contact%rows%n) < zero)) then
       call find_rows(model, contact, u, x_free)
       if (contact%rows%n + contact%spare%n == 0) return
     else
@@ -42,7 +43,6 @@ contains
       contact%spare%is_marked(a) = touches(contact, contact%spare, a, v)
     end do
     call take_spare(contact)
-    contact%largest_velocity = maxval(abs(v))
     do a = 1, contact%rows%n
       call activate(contact, a, touches(contact, contact%rows, a, v), v)
     end do
@@ -53,7 +53,6 @@ contains
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: v(:, :)
     integer :: a
-    contact%largest_velocity = maxval(abs(v))
     do a = 1, contact%rows%n
       call activate(contact, a, contact%rows%r(1, a) > zero, v)
     end do
@@ -163,5 +162,16 @@ contains
       end do
     end associate
   end subroutine add_restitution
+
+  !> Of velocities (2, n) [L/T].
+  pure real(wp) function largest_component(n, v) result(largest)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: v(2, n)
+    integer :: i
+    largest = zero
+    do i = 1, n
+      largest = max(largest, abs(v(1, i)), abs(v(2, i)))
+    end do
+  end function largest_component
 
 end module contact_velocity

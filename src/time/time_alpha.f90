@@ -183,7 +183,7 @@ contains
     if (this%looks_ahead) then
       call swap(this%force, this%force_before)
       call look_ahead(this, system, state)
-      alpha_dissipation = all_terms(size(this%da), weight, half - this%af, state%a, this%da, &
+      alpha_dissipation = all_terms(system%n, weight, half - this%af, state%a, this%da, &
           state%du, this%m_da, this%force, this%force_before)
     else
       this%m_da = zero
@@ -215,13 +215,16 @@ contains
   !> The same, and q dU.(K U1 - K U0), in one pass.
   pure real(wp) function all_terms(n, weight, q, a, da, du, m_da, after, before) result(terms)
     integer, intent(in) :: n
-    real(wp), intent(in) :: weight(3), q, a(n), da(n), du(n), m_da(n), after(n), before(n)
+    real(wp), intent(in) :: weight(3), q
+    real(wp), intent(in), dimension(2, n) :: a, da, du, m_da, after, before
+    real(wp) :: total(2)
     integer :: i
-    terms = zero
+    total = zero
     do i = 1, n
-      terms = terms + (m_da(i)*(weight(1)*a(i) + weight(2)*da(i) - weight(3)*du(i)) &
-          + q*du(i)*(after(i) - before(i)))
+      total = total + (m_da(:, i)*(weight(1)*a(:, i) + weight(2)*da(:, i) &
+          - weight(3)*du(:, i)) + q*du(:, i)*(after(:, i) - before(:, i)))
     end do
+    terms = sum(total)
   end function all_terms
 
   !> x = U1 - U0, or D + beta h^2 A1 with A1 given or from V1.
