@@ -234,8 +234,8 @@ contains
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value
-    alpha_given_motion = newmark_motion(this%h, this%beta, this%gamma, state, direction, node, &
-        kind, value)
+    alpha_given_motion = newmark_motion(this%h, this%beta, this%gamma, state, direction, &
+        node, kind, value)
   end function alpha_given_motion
 
 end module time_alpha

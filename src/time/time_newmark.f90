@@ -108,8 +108,8 @@ contains
     type(state_t), intent(in) :: state
     integer, intent(in) :: direction, node, kind
     real(wp), intent(in) :: value
-    newmark_given_motion = newmark_motion(this%h, this%beta, this%gamma, state, direction, node, &
-        kind, value)
+    newmark_given_motion = newmark_motion(this%h, this%beta, this%gamma, state, direction, &
+        node, kind, value)
   end function newmark_given_motion
 
 end module time_newmark
