@@ -259,7 +259,7 @@ contains
     type(contact_t), intent(inout) :: contact
     type(late_t), intent(in) :: late
     real(wp) :: allowance, mu
-    mu = contact%pairing(late%key(1))%item%mu
+    mu = contact%pairing(late%key(1))%item%friction%static
     allowance = late%allowance
     if (late%row > 0) allowance = contact%rows%allowance(late%row)
     call add_row(contact%next, late%key, late%point(:late%points), &

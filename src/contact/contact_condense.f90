@@ -152,6 +152,10 @@ contains
         contact%h_dof, contact%h_weight, contact%h_size)
     rows = contact%d*n
     allocate (contact%q(contact%d, n), contact%mu(n))
+    if (contact%friction_varies) then
+      if (allocated(contact%mu_trial)) deallocate (contact%mu_trial)
+      allocate (contact%mu_trial(3, n), source=zero)
+    end if
     allocate (contact%r(contact%d, n), contact%row_of(n))
     allocate (contact%h_dof(most_dofs, rows), contact%h_weight(most_dofs, rows))
     allocate (contact%h_size(rows))

@@ -289,9 +289,9 @@ contains
       associate (place => this%place(j), &
           obstacle => this%side(facing_side(this, this%place(j)%side)))
         if (place%is_exact) then
-          call emit_row(this%number, obstacle, this%mu, place, rows)
+          call emit_row(this%number, obstacle, this%friction%static, place, rows)
         else
-          call emit_row(this%number, obstacle, this%mu, place, spare)
+          call emit_row(this%number, obstacle, this%friction%static, place, spare)
         end if
       end associate
     end do

@@ -5,6 +5,7 @@ module contact_pairing
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero
   use base_status, only: status_t
+  use contact_friction, only: friction_t
   use contact_rows, only: rows_t
   use contact_surface, only: surface_t
   use model_data, only: model_t
@@ -80,7 +81,7 @@ module contact_pairing
     integer :: record = 0                  !< its card, for messages
     integer :: number = 0                  !< among the pairings
     logical :: is_wall = .false.           !< rigid obstacle, without a side of nodes
-    real(wp) :: mu = zero
+    type(friction_t) :: friction
     real(wp) :: birth = zero, death = huge(1.0_wp)
     logical :: is_born = .false.           !< its first step has been checked
     real(wp) :: accepted_overlap = zero    !< found then, taken as a touch [L]

@@ -4,6 +4,7 @@ module contact_setup
   use base_kinds, only: wp, zero, half
   use cone_types, only: cone_options_t, contact_open
   use contact_area, only: make_nodal
+  use contact_friction, only: friction_t, friction_varies
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
   use contact_registry, only: make_pairing
@@ -57,6 +58,8 @@ contains
     end do
     do p = 1, n
       call set_common(model, p, contact%pairing(p)%item)
+      contact%friction_varies = contact%friction_varies .or. &
+          friction_varies(contact%pairing(p)%item%friction)
     end do
   end subroutine make_contact
 
@@ -79,7 +82,7 @@ contains
     integer :: s
     pairing%id = card%id
     pairing%record = card%record
-    pairing%mu = card%mu
+    pairing%friction = friction_t(card%mu, card%kinetic_mu, card%friction_decay)
     pairing%restitution = merge(model%controls%restitution, card%restitution, &
         card%restitution < zero)
     pairing%birth = card%birth
@@ -113,7 +116,7 @@ contains
     pairing%is_wall = .true.
     pairing%id = wall%id
     pairing%record = wall%record
-    pairing%mu = wall%mu
+    pairing%friction = friction_t(static=wall%mu, kinetic=wall%mu)
     pairing%restitution = model%controls%restitution
     pairing%birth = wall%birth
     pairing%death = wall%death

@@ -45,6 +45,8 @@ module contact_types
     logical :: splits_work = .true.
     real(wp) :: largest_velocity = zero           !< on velocities: of all nodes [L/T]
     logical :: was_on_velocities = .false.        !< the last stage: offsets, active rows
+    logical :: friction_varies = .false.          !< with the speed of slip, in some pairing
+    real(wp) :: step_length = zero                !< [T]
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
@@ -62,6 +64,7 @@ module contact_types
     integer, allocatable :: row_of(:)             !< (n)
     type(delassus_dense_t) :: w
     real(wp), allocatable :: q(:, :), mu(:), r(:, :)
+    real(wp), allocatable :: mu_trial(:, :)       !< (3, n) where friction varies: contact_slip
     !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)

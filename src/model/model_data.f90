@@ -96,7 +96,9 @@ module model_data
     logical :: is_of_all = .false.  !< of all parts: what other cards name is theirs
     integer, allocatable :: parts(:)
     logical, allocatable :: leaves_out(:, :)   !< (parts, parts) pairs that do not touch
-    real(wp) :: mu = 0.0_wp
+    real(wp) :: mu = 0.0_wp         !< static
+    real(wp) :: kinetic_mu = 0.0_wp
+    real(wp) :: friction_decay = 0.0_wp !< with the speed of slip [T/L]
     real(wp) :: restitution = -1.0_wp   !< < 0: that of the scheme
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)

@@ -82,15 +82,32 @@ contains
     if (index(deck%block(deck%record(record)%block)%written, '_NODE_TO_') > 0) &
         card%contactor = 1
     card%is_self = index(deck%block(deck%record(record)%block)%written, 'SINGLE_SURFACE') > 0
-    card%mu = deck%real(record, 'FS')
-    if (deck%is_given(record, 'FD') .and. abs(deck%real(record, 'FD') - card%mu) > zero) &
-        call add_note(deck%problems, deck%place(record)// &
-        ': FD has no effect while DC = 0; friction is FS = '//to_text(card%mu))
+    call read_friction(deck, record, card)
     second = deck%follow(record, 2)
     if (second == 0) return
     card%birth = deck%real(second, 'TBIRTH')
     card%death = deck%real(second, 'TDEATH')
   end subroutine read_card
+
+  !> Friction: FS alone while DC is zero, else from FS at rest to FD at speed.
+  subroutine read_friction(deck, record, card)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    type(contact_card_t), intent(inout) :: card
+    card%mu = deck%real(record, 'FS')
+    card%kinetic_mu = deck%real(record, 'FD')
+    card%friction_decay = deck%real(record, 'DC')
+    if (card%friction_decay > zero) then
+      if (card%kinetic_mu > card%mu) call deck%complain(record, 'FD', 'kinetic friction FD = ' &
+          //to_text(card%kinetic_mu)//' is larger than static friction FS = '// &
+          to_text(card%mu), 'friction falls with the speed of slip: expected FD <= FS')
+      if (.not. deck%is_given(record, 'FD') .and. card%mu > zero) call add_note(deck%problems, &
+          deck%place(record)//': FD is blank: friction falls to zero at speed')
+    else if (deck%is_given(record, 'FD') .and. abs(card%kinetic_mu - card%mu) > zero) then
+      call add_note(deck%problems, deck%place(record)// &
+          ': FD has no effect while DC = 0; friction is FS = '//to_text(card%mu))
+    end if
+  end subroutine read_friction
 
   !> The id on the card of _ID before a record; the number in the deck where there is none.
   integer function id_before(deck, record, number)

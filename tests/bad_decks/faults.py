@@ -502,7 +502,8 @@ BLOCK_FAULTS = [
     ("two cards on the same parts", "*END", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n" + CONTACT + "\n*END"),
     ("frame that is not available", "*END", "*BIPACT_CONTACT\n\n                 MID\n*END"),
     ("tied contact", CONTACT + "\n", CONTACT + "\n\n                              1\n"),
-    ("friction that decays", CONTACT, CONTACT + " " * 20 + "       0.3       0.1       1.0"),
+    ("friction that rises", CONTACT, CONTACT + " " * 20 + "       0.1       0.3       1.0"),
+    ("decay of friction", CONTACT, CONTACT + " " * 20 + "       0.3       0.1      -1.0"),
     ("negative friction", CONTACT, CONTACT + " " * 20 + "      -0.3"),
     ("viscous friction", CONTACT + "\n", CONTACT + "\n\n       1.0\n"),
     (
