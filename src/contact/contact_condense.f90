@@ -153,8 +153,9 @@ contains
     rows = contact%d*n
     allocate (contact%q(contact%d, n), contact%mu(n))
     if (contact%friction_varies) then
-      if (allocated(contact%mu_trial)) deallocate (contact%mu_trial)
-      allocate (contact%mu_trial(3, n), source=zero)
+      if (allocated(contact%mu_law)) deallocate (contact%mu_law, &
+          contact%mu_bound, contact%mu_memory)
+      allocate (contact%mu_law(n), contact%mu_bound(2, n), contact%mu_memory)
     end if
     allocate (contact%r(contact%d, n), contact%row_of(n))
     allocate (contact%h_dof(most_dofs, rows), contact%h_weight(most_dofs, rows))

@@ -6,9 +6,10 @@
 !> does not stick, mu - mu(|u_t|) has one zero, for it is concave in mu, negative at mu_k and
 !> positive at mu_s.
 module contact_slip
-  use base_kinds, only: wp, zero, one, half
+  use base_kinds, only: wp, zero, half
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
+  use cone_anderson, only: start_anderson, extrapolate
   use cone_solver, only: solve_cone
   use cone_types, only: certificate_t, contact_stick
   use contact_friction, only: friction_t, friction_varies, friction_at
@@ -19,11 +20,11 @@ module contact_slip
   public :: solve_friction
 
   !> Solves for the coefficients; the later ones go half the way, where whole ones cycle.
-  integer, parameter :: most_passes = 100, whole_passes = 40
+  integer, parameter :: most_passes = 100, whole_passes = 60
   !> Share of the tolerance of the solve that a coefficient may be off.
   real(wp), parameter :: share = 0.1_wp
-  !> Changes that shrink more slowly lead nowhere.
-  real(wp), parameter :: largest_ratio = 0.99_wp
+  !> Changes that the acceleration keeps, and solves after which it begins anew.
+  integer, parameter :: depth = 4, most_held = 15
 
 contains
 
@@ -77,7 +78,7 @@ contains
     if (contact%rule%level == level_velocity) slip_time = contact%rule%now
   end function slip_time
 
-  !> The coefficients of the slips as they are, beside the last two of every row. is_met: they
+  !> The coefficients of the slips as they are (mu_law). is_met: they
   !> are those of the solve, or of slips that differ by no more than its tolerance. A step of
   !> no length has no speed: static.
   pure subroutine find_friction(contact, is_met)
@@ -89,43 +90,50 @@ contains
     time = slip_time(contact)
     largest = maxval(abs(contact%work%u(2, :)), mask=contact%r(1, :) > zero)
     do k = 1, contact%n
-      associate (mu => contact%mu(k), trial => contact%mu_trial(:, k), law => &
+      associate (mu => contact%mu(k), of_slip => contact%mu_law(k), law => &
           contact%pairing(contact%rows%key(1, contact%row_of(k)))%item%friction)
-        trial(1:2) = trial(2:3)
-        trial(3) = mu
+        of_slip = mu
         if (.not. friction_varies(law) .or. .not. time > zero) cycle
         if (.not. contact%r(1, k) > zero) cycle
-        trial(3) = law%static
-        if (contact%work%status(k) /= contact_stick) trial(3) = friction_at(law, &
+        of_slip = law%static
+        if (contact%work%status(k) /= contact_stick) of_slip = friction_at(law, &
             contact%work%u(2, k)/time)
-        slope = law%decay*(trial(3) - law%kinetic)*largest/time
+        slope = law%decay*(of_slip - law%kinetic)*largest/time
         is_met = is_met .and. &
-            abs(trial(3) - mu) <= contact%cone%tolerance*max(share, slope)
+            abs(of_slip - mu) <= contact%cone%tolerance*max(share, slope)
       end associate
     end do
   end subroutine find_friction
 
-  !> Coefficients of the next solve. Every third one is where the last changes of a row lead
-  !> (Aitken; Steffensen 1933).
-  pure subroutine take_friction(contact, pass)
+  !> Coefficients of the next solve: where the last few changes lead (Anderson 1965). A row whose
+  !> slip asks for less than mu has its answer below mu, as far as it goes by itself: where they
+  !> lead back, or out of such bounds, the slip decides.
+  subroutine take_friction(contact, pass)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: pass
-    real(wp) :: last, ratio
+    real(wp) :: plain(contact%n)
     integer :: k
+    if (pass > whole_passes) then
+      contact%mu = half*(contact%mu + contact%mu_law)
+      return
+    end if
+    if (mod(pass, most_held) == 1) then
+      call start_anderson(contact%mu_memory, contact%n, depth)
+      contact%mu_bound(1, :) = -huge(zero)
+      contact%mu_bound(2, :) = huge(zero)
+    end if
+    where (contact%mu_law > contact%mu) contact%mu_bound(1, :) = contact%mu
+    where (contact%mu_law < contact%mu) contact%mu_bound(2, :) = contact%mu
+    plain = contact%mu_law
+    call extrapolate(contact%mu_memory, contact%n, contact%mu, contact%mu_law)
     do k = 1, contact%n
-      associate (mu => contact%mu(k), trial => contact%mu_trial(:, k), law => &
+      associate (mu => contact%mu(k), next => contact%mu_law(k), &
+          bound => contact%mu_bound(:, k), law => &
           contact%pairing(contact%rows%key(1, contact%row_of(k)))%item%friction)
-        if (pass > whole_passes) then
-          mu = half*(mu + trial(3))
-          cycle
-        end if
-        mu = trial(3)
-        if (mod(pass, 3) /= 0) cycle
-        last = trial(3) - trial(2)
-        if (.not. abs(trial(2) - trial(1)) > zero) cycle
-        ratio = last/(trial(2) - trial(1))
-        if (ratio < largest_ratio) &
-            mu = min(law%static, max(law%kinetic, mu + last*ratio/(one - ratio)))
+        next = min(law%static, max(law%kinetic, next))
+        if ((next - mu)*(plain(k) - mu) < zero .or. next <= bound(1) .or. next >= bound(2)) &
+            next = plain(k)
+        mu = next
       end associate
     end do
   end subroutine take_friction

@@ -2,6 +2,7 @@
 !> Contact of a scene: its pairings, the rows of the step, and the condensed problem for them.
 module contact_types
   use base_kinds, only: wp, zero
+  use cone_anderson, only: anderson_t
   use cone_dense, only: delassus_dense_t
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use contact_pairing, only: pairing_slot_t, late_t
@@ -64,7 +65,9 @@ module contact_types
     integer, allocatable :: row_of(:)             !< (n)
     type(delassus_dense_t) :: w
     real(wp), allocatable :: q(:, :), mu(:), r(:, :)
-    real(wp), allocatable :: mu_trial(:, :)       !< (3, n) where friction varies: contact_slip
+    real(wp), allocatable :: mu_law(:)            !< (n) where friction varies: of the slips
+    real(wp), allocatable :: mu_bound(:, :)       !< (2, n) between which the answer is
+    type(anderson_t), allocatable :: mu_memory    !< of its iteration
     !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)
