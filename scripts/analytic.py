@@ -561,6 +561,12 @@ class SlidingBlock:
         return self.mu * self.mass * self.gravity * self.place(t)
 
 
+def press_fit(overlap, lengths, moduli):
+    """Pressure [F L-2] between two bars (lengths [L], moduli [F L-2]) held at their far ends
+    whose meeting ends overlap by so much [L]: p = overlap/(L1/E1 + L2/E2)."""
+    return overlap / sum(length / modulus for length, modulus in zip(lengths, moduli))
+
+
 @dataclass
 class StickSlip:
     """A block on a moving belt, held by a spring: it sticks until the spring pulls with

@@ -6,6 +6,7 @@ module contact_pairing
   use base_kinds, only: wp, zero
   use base_status, only: status_t
   use contact_friction, only: friction_t
+  use contact_ramp, only: ramp_t
   use contact_rows, only: rows_t
   use contact_surface, only: surface_t
   use model_data, only: model_t
@@ -100,6 +101,7 @@ module contact_pairing
     integer :: listed = 0                  !< nodes that are near
     type(pair_sums_t) :: sums
     type(purse_t) :: purse
+    type(ramp_t), allocatable :: ramp      !< of interference that is pushed out
     type(overlap_t) :: overlap             !< of the step just done
     type(node_forces_t), allocatable :: nodal  !< only where the table NCFORC is asked for
   contains

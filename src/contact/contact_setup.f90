@@ -8,11 +8,12 @@ module contact_setup
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
   use contact_registry, only: make_pairing
+  use contact_ramp, only: make_ramp
   use contact_rows, only: start_rows
   use contact_surface, only: make_surface
   use contact_types, only: contact_t
   use contact_wall, only: pairing_wall_t
-  use deck_names, only: field_names, table_ncforc
+  use deck_names, only: field_names, table_ncforc, overlap_ramp
   use model_data, only: model_t, contact_card_t, wall_t, side_node_set, &
       side_all_nodes
   implicit none
@@ -87,6 +88,11 @@ contains
         card%restitution < zero)
     pairing%birth = card%birth
     pairing%death = card%death
+    if (card%overlap == overlap_ramp) then
+      allocate (pairing%ramp)
+      call make_ramp(pairing%ramp, model%nodes, merge(model%controls%static_until, &
+          model%controls%end_time, model%controls%static_until > zero))
+    end if
     if (card%is_self) then
       call make_surface(model, card%kind(1), 0, pairing%side(1), card%parts)
       call empty_side(pairing)

@@ -316,6 +316,8 @@ contains
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%state%du, run%ledger%contact)
     end if
+    run%ledger%motion = run%ledger%motion + run%ledger%contact%given
+    run%ledger%contact%given = zero
   end subroutine add_step_work
 
   !> Reactions of held dofs and their work in the step [F L].
