@@ -277,7 +277,7 @@ contains
     type(pairing_node_t), intent(inout) :: this
     type(place_t), intent(in) :: place
     real(wp), intent(in) :: distance
-    if (distance > zero .and. place%gap < -place%allowance .and. .not. allocated(this%ramp)) &
+    if (distance > zero .and. place%gap < -place%allowance .and. .not. this%may_overlap) &
         return
     if (this%places == size(this%place)) this%place = [this%place, this%place]
     this%places = this%places + 1

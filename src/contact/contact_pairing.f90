@@ -101,6 +101,7 @@ module contact_pairing
     integer :: listed = 0                  !< nodes that are near
     type(pair_sums_t) :: sums
     type(purse_t) :: purse
+    logical :: may_overlap = .false.       !< nodes on the other's boundary have deep places
     type(ramp_t), allocatable :: ramp      !< of interference that is pushed out
     type(overlap_t) :: overlap             !< of the step just done
     type(node_forces_t), allocatable :: nodal  !< only where the table NCFORC is asked for

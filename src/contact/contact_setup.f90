@@ -90,6 +90,7 @@ contains
     pairing%death = card%death
     if (card%overlap == overlap_ramp) then
       allocate (pairing%ramp)
+      pairing%may_overlap = .true.
       call make_ramp(pairing%ramp, model%nodes, merge(model%controls%static_until, &
           model%controls%end_time, model%controls%static_until > zero))
     end if

@@ -105,9 +105,9 @@ contains
     end do
   end subroutine find_friction
 
-  !> Coefficients of the next solve: where the last few changes lead (Anderson 1965). A row whose
-  !> slip asks for less than mu has its answer below mu, as far as it goes by itself: where they
-  !> lead back, or out of such bounds, the slip decides.
+  !> Coefficients of the next solve: where the last few changes lead (Anderson 1965). A row
+  !> whose slip asks for less than mu has its answer below mu, as far as it goes by itself:
+  !> where they lead back, or out of such bounds, the slip decides.
   subroutine take_friction(contact, pass)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: pass

@@ -84,7 +84,7 @@ contains
     write (unit, '(a)') 'moved onto obstacles: contact, node, by x, by y'
     do k = 1, size(run%moved)
       associate (m => run%moved(k))
-        write (unit, '(2i10,2es24.16e3)') m%contact, run%model%node_id(m%node), m%by
+        write (unit, '(2i10,2(1x,es24.16e3))') m%contact, run%model%node_id(m%node), m%by
       end associate
     end do
   end subroutine write_moved

@@ -65,9 +65,12 @@ contains
     integer, allocatable :: massless(:)
     call run%timers%enter(phase_assemble)
     allocate (massless(0))
-    if (any(run%model%contact%overlap == overlap_adjust)) call adjust_nodes(run%model, run%moved)
     if (run%plan%contact) then
       call make_contact(run%model, run%cone, run%contact)
+      if (any(run%model%contact%overlap == overlap_adjust)) then
+        call adjust_nodes(run%model, run%contact, run%moved)
+        call make_contact(run%model, run%cone, run%contact)
+      end if
       if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
     else
       allocate (run%contact%interface_node(0), run%contact%pairing(0), run%contact%rows)

@@ -519,6 +519,16 @@ BLOCK_FAULTS = [
     ("pair of no contact", "*END", "*BIPACT_PAIR\n         5         A\n*END"),
     ("pair with no side", "*END", "*BIPACT_PAIR\n         1      NONE\n*END"),
     ("pair twice", "*END", "*BIPACT_PAIR\n         1         A\n         1         B\n*END"),
+    ("ramp without statics", "*END", "*BIPACT_PAIR\n         1,,,,,,,RAMP\n*END"),
+    (
+        "adjusted node set",
+        CONTACT,
+        "        -1        12",
+        "*END",
+        "*SET_NODE_LIST\n1,\n5,6\n*BIPACT_PAIR\n1,,,,,,,ADJUST\n*END",
+    ),
+    ("adjusted by both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,,,ADJUST\n*END"),
+    ("overlap of no such kind", "*END", "*BIPACT_PAIR\n1,,,,,,,PUSH\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
     (
         "wall without normal",

@@ -3,6 +3,7 @@
 
 import os
 import re
+import shutil
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
@@ -21,7 +22,7 @@ OVERLAP, LENGTHS, MODULI = 0.01, (2.0, 3.0), (1.0e3, 4.0e3)
 def bars(way, rows=(3, 3), mu=0.0, dynamic=0.0, steps=5, width=1.0, side=""):
     """Two flush bars whose meeting ends overlap; far ends held in x, one node of each in y.
     dynamic: time that follows a static phase of 1."""
-    scene = Scene(dt=0.2, steps=steps)
+    scene = Scene(dt=1.0 / steps, steps=steps)
     one = scene.body(4, rows[0], box(0.0, 0.0, LENGTHS[0], 1.0), young=MODULI[0], poisson=0.0)
     two = scene.body(
         4,
@@ -49,7 +50,7 @@ def ramp():
     round-off times a condition of 1e3 to 1e4. Then dynamics takes over and nothing moves. A
     force that was wrong by the allowance of a corner (2e-4 of an edge) would be off by 5e-3."""
     exact = press_fit(OVERLAP, LENGTHS, MODULI)
-    for name, options in (("plain", {}), ("friction", {"mu": 0.3}), ("one step", {"steps": 5})):
+    for name, options in (("plain", {}), ("friction", {"mu": 0.3}), ("one step", {"steps": 1})):
         folder, code, errors = run_text("ramp", bars("RAMP", **options))
         check(code == 0 and errors == "", "%s: exit code %d: %s" % (name, code, errors))
         force = table(folder, "rcforc", side=1)
@@ -124,20 +125,15 @@ def restart():
     files = sorted(f for f in os.listdir(folder) if f.startswith("restart."))
     check(len(files) >= 10, "restart files: %d" % len(files))
     for file in files[:8]:
-        again = os.path.join(scenes.TMP, "again")
+        again = os.path.join(scenes.TMP, "again-" + file)
+        shutil.copytree(folder, again)
         code, errors, _ = bipact(
-            folder + ".k", again, "--quiet", "--restart", os.path.join(folder, file)
+            folder + ".k", again, "--quiet", "--restart", os.path.join(again, file)
         )
         check(code == 0, "%s: exit code %d %s" % (file, code, errors))
-        rows, all_rows = (
-            table(f, "rcforc").rows if hasattr(table(f, "rcforc"), "rows") else table(f, "rcforc")
-            for f in (again, whole)
-        )
-        for column in ("fn", "ft", "gapmin"):
-            a, b = rows[column], all_rows[column]
-            check((a == b[len(b) - len(a) :]).all(), "%s: %s" % (file, column))
-        a, b = table(again, "glstat")["residual"], table(whole, "glstat")["residual"]
-        check((a == b[len(b) - len(a) :]).all(), file + ": residual")
+        for name in ("glstat", "rcforc", "ncforc", "nodout", "sleout", "matsum"):
+            texts = [open(os.path.join(f, name + ".tab")).read() for f in (again, whole)]
+            check(texts[0] == texts[1], "%s: %s" % (file, name))
 
 
 if __name__ == "__main__":
