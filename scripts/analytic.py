@@ -561,6 +561,52 @@ class SlidingBlock:
         return self.mu * self.mass * self.gravity * self.place(t)
 
 
+def press_fit(overlap, lengths, moduli):
+    """Pressure [F L-2] between two bars (lengths [L], moduli [F L-2]) held at their far ends
+    whose meeting ends overlap by so much [L]: p = overlap/(L1/E1 + L2/E2)."""
+    return overlap / sum(length / modulus for length, modulus in zip(lengths, moduli))
+
+
+@dataclass
+class StickSlip:
+    """A block on a moving belt, held by a spring: it sticks until the spring pulls with
+    mu_s N, then slips against mu_k N until it has the velocity of the belt again. With
+    w = sqrt(k/m) and A = (mu_s - mu_k) N/k the slip is x_k + A cos wt + (V/w) sin wt
+    (Den Hartog 1956, Mechanical Vibrations)."""
+
+    belt: float = 0.01  # velocity V [L T-1]
+    stiffness: float = 1.0  # k [F L-1]
+    mass: float = 1.0  # [M]
+    normal: float = 0.1  # N [F]
+    static: float = 0.4
+    kinetic: float = 0.2
+
+    @property
+    def frequency(self):
+        """w [T-1]"""
+        return np.sqrt(self.stiffness / self.mass)
+
+    @property
+    def excess(self):
+        """A [L]"""
+        return (self.static - self.kinetic) * self.normal / self.stiffness
+
+    @property
+    def stick(self):
+        """Time of sticking [T]: the spring goes from x_k - A to x_k + A."""
+        return 2.0 * self.excess / self.belt
+
+    @property
+    def slip(self):
+        """Time of slipping [T]"""
+        w = self.frequency
+        return (2.0 * np.pi - 2.0 * np.arctan(self.excess * w / self.belt)) / w
+
+    @property
+    def period(self):
+        return self.stick + self.slip
+
+
 # ---------------------------------------------------------------- command line
 
 

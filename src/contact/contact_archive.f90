@@ -3,7 +3,7 @@
 !> sums of the tables. W and the flexibility of the interface are made anew from them.
 module contact_archive
   use base_archive, only: archive_t, archive_restore
-  use base_kinds, only: wp
+  use base_kinds, only: wp, zero
   use cone_types, only: certificate_t
   use contact_condense, only: size_schur_inverse
   use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
@@ -189,6 +189,8 @@ contains
       call archive%exchange('pairing.reference_1', pairing%reference_1)
       call archive%exchange('pairing.reference_2', pairing%reference_2)
     end if
+    if (allocated(pairing%ramp)) call archive%exchange('pairing.ramp', pairing%ramp%start)
+    if (allocated(pairing%ramp)) pairing%ramp%is_known = any(pairing%ramp%start < zero)
     call pairing%exchange(archive)
     call exchange_sums(archive, pairing%sums)
   end subroutine exchange_pairing

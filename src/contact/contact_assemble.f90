@@ -5,6 +5,7 @@ module contact_assemble
   use base_kinds, only: wp, zero, one
   use contact_features, only: smooth_angle
   use contact_pairing, only: late_t
+  use contact_ramp, only: ramp_floor
   use contact_rows, only: rows_t, start_rows, add_row, copy_row, swap_rows, same_geometry, &
       carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, row_wall
   use contact_types, only: contact_t
@@ -258,12 +259,16 @@ contains
   subroutine add_late(contact, late)
     type(contact_t), intent(inout) :: contact
     type(late_t), intent(in) :: late
-    real(wp) :: allowance, mu
-    mu = contact%pairing(late%key(1))%item%mu
+    real(wp) :: allowance, mu, gap
+    mu = contact%pairing(late%key(1))%item%friction%static
+    gap = late%gap
+    associate (pairing => contact%pairing(late%key(1))%item)
+      if (allocated(pairing%ramp)) gap = gap - ramp_floor(pairing%ramp, late%key(3))
+    end associate
     allowance = late%allowance
     if (late%row > 0) allowance = contact%rows%allowance(late%row)
     call add_row(contact%next, late%key, late%point(:late%points), &
-        late%weight(:late%points), late%normal, late%gap, mu, late%length, late%kind, allowance)
+        late%weight(:late%points), late%normal, gap, mu, late%length, late%kind, allowance)
     if (late%row > 0) then
       contact%tally%new_frames = contact%tally%new_frames + 1
       call take_reactions(contact%rows, late%row, contact%next, contact%next%n)

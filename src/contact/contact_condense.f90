@@ -152,6 +152,11 @@ contains
         contact%h_dof, contact%h_weight, contact%h_size)
     rows = contact%d*n
     allocate (contact%q(contact%d, n), contact%mu(n))
+    if (contact%friction_varies) then
+      if (allocated(contact%mu_law)) deallocate (contact%mu_law, &
+          contact%mu_bound, contact%mu_memory)
+      allocate (contact%mu_law(n), contact%mu_bound(2, n), contact%mu_memory)
+    end if
     allocate (contact%r(contact%d, n), contact%row_of(n))
     allocate (contact%h_dof(most_dofs, rows), contact%h_weight(most_dofs, rows))
     allocate (contact%h_size(rows))

@@ -2,10 +2,12 @@
 !> The monitor of overlap: what it finds in bodies that overlap is told as a warning or ends
 !> the run. It asks the boundaries, not the rows.
 module contact_monitor
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_numerical, status_deck
   use base_strings, only: to_text
   use contact_pairing, only: pairing_t, overlap_t, no_gap
+  use contact_places, only: deepest
+  use contact_ramp, only: ramp_depth
   use contact_types, only: contact_t
   use model_data, only: model_t
   implicit none
@@ -114,15 +116,19 @@ contains
     class(pairing_t), intent(inout) :: pairing
     integer, intent(in) :: cycle
     type(status_t), intent(inout) :: status
+    real(wp) :: share
     associate (o => pairing%overlap, tally => contact%tally)
       if (.not. o%depth > zero) return
       pairing%sums%penetration = max(pairing%sums%penetration, o%depth)
       tally%overlap = max(tally%overlap, o%depth)
-      if (o%share > warned .and. tally%overlap_step < 0) tally%overlap_step = cycle
-      if (o%share > warned) tally%overlaps = tally%overlaps + 1
-      if (o%share > tally%overlap_share) tally%overlap_node = o%node
-      tally%overlap_share = max(tally%overlap_share, o%share)
-      if (o%share > passed) call fail(status, status_numerical, place_of(model, pairing)// &
+      share = o%share
+      if (allocated(pairing%ramp)) share = share &
+          *max(zero, one - ramp_depth(pairing%ramp)/o%depth)
+      if (share > warned .and. tally%overlap_step < 0) tally%overlap_step = cycle
+      if (share > warned) tally%overlaps = tally%overlaps + 1
+      if (share > tally%overlap_share) tally%overlap_node = o%node
+      tally%overlap_share = max(tally%overlap_share, share)
+      if (share > passed) call fail(status, status_numerical, place_of(model, pairing)// &
           ': it has passed through the surface', hint='fewer or stiffer elements, or a '// &
           'smaller step where a body moves further than its thickness in one')
     end associate
@@ -160,7 +166,11 @@ contains
     associate (pairing => contact%pairing(p)%item)
       pairing%overlap = overlap_t()
       call pairing%measure_whole(model, u, pairing%overlap, accepted)
-      if (pairing%overlap%depth > accepted) then
+      if (allocated(pairing%ramp)) then
+        if (pairing%overlap%share > deepest) call fail(status, status_deck, &
+            'initial penetration: '//place_of(model, pairing)//', more than '// &
+            to_text(deepest)//' of an edge', hint='OVERLAP RAMP pushes out less than that')
+      else if (pairing%overlap%depth > accepted) then
         if (cycle == 0) then
           hint = 'open the gap'
           if (pairing%is_wall) hint = 'move the wall, or name the nodes in front of it (NSID)'

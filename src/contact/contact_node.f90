@@ -12,6 +12,7 @@ module contact_node
   use contact_overlap, only: true_gap, look_again, open_gap, update_front
   use contact_pairing, only: pairing_t, overlap_t, late_t, no_gap
   use contact_places, only: place_t, sight_t, view_t, find_places, size_sight, share_at_corner
+  use contact_ramp, only: raise_places
   use contact_repeat, only: keep_place, repeat_place
   use contact_rows, only: rows_t, renew_gap
   use contact_surface, only: surface_t, shortest_edge_at
@@ -165,6 +166,7 @@ contains
     end do
     if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u, &
         this%place, n_first, this%places)
+    if (allocated(this%ramp)) call raise_places(this%ramp, this%place(:this%places))
     is_same = this%repeated == this%places .and. this%places == before
   end subroutine node_find_places
 
@@ -269,12 +271,14 @@ contains
     end associate
   end subroutine take_places
 
-  !> Keeps a place, if its node at that distance may have it.
+  !> Keeps a place, if its node at that distance may have it. Corners of flush bodies that
+  !> overlap are on the boundary.
   subroutine add_place(this, place, distance)
     type(pairing_node_t), intent(inout) :: this
     type(place_t), intent(in) :: place
     real(wp), intent(in) :: distance
-    if (distance > zero .and. place%gap < -place%allowance) return
+    if (distance > zero .and. place%gap < -place%allowance .and. .not. this%may_overlap) &
+        return
     if (this%places == size(this%place)) this%place = [this%place, this%place]
     this%places = this%places + 1
     this%place(this%places) = place
@@ -289,9 +293,9 @@ contains
       associate (place => this%place(j), &
           obstacle => this%side(facing_side(this, this%place(j)%side)))
         if (place%is_exact) then
-          call emit_row(this%number, obstacle, this%mu, place, rows)
+          call emit_row(this%number, obstacle, this%friction%static, place, rows)
         else
-          call emit_row(this%number, obstacle, this%mu, place, spare)
+          call emit_row(this%number, obstacle, this%friction%static, place, spare)
         end if
       end associate
     end do
@@ -337,6 +341,7 @@ contains
     end do
     if (this%places > 1) call settle_twins(this%side, this%is_self, model%x, u1, this%place, &
         n_first, this%places)
+    if (allocated(this%ramp)) call raise_places(this%ramp, this%place(:this%places))
     do j = 1, this%places
       call judge_late(this%number, this%side(facing_side(this, this%place(j)%side)), model%x, &
           u0, this%place(j), rows, late, n)

@@ -5,6 +5,8 @@ module contact_pairing
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero
   use base_status, only: status_t
+  use contact_friction, only: friction_t
+  use contact_ramp, only: ramp_t
   use contact_rows, only: rows_t
   use contact_surface, only: surface_t
   use model_data, only: model_t
@@ -80,7 +82,7 @@ module contact_pairing
     integer :: record = 0                  !< its card, for messages
     integer :: number = 0                  !< among the pairings
     logical :: is_wall = .false.           !< rigid obstacle, without a side of nodes
-    real(wp) :: mu = zero
+    type(friction_t) :: friction
     real(wp) :: birth = zero, death = huge(1.0_wp)
     logical :: is_born = .false.           !< its first step has been checked
     real(wp) :: accepted_overlap = zero    !< found then, taken as a touch [L]
@@ -99,6 +101,8 @@ module contact_pairing
     integer :: listed = 0                  !< nodes that are near
     type(pair_sums_t) :: sums
     type(purse_t) :: purse
+    logical :: may_overlap = .false.       !< nodes on the other's boundary have deep places
+    type(ramp_t), allocatable :: ramp      !< of interference that is pushed out
     type(overlap_t) :: overlap             !< of the step just done
     type(node_forces_t), allocatable :: nodal  !< only where the table NCFORC is asked for
   contains

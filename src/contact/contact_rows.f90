@@ -206,8 +206,8 @@ contains
     if (.not. same_geometry) return
     do k = 1, a%n
       if (a%first(k) /= b%first(k) .or. any(a%key(:, k) /= b%key(:, k)) .or. &
-          any(abs(a%normal(:, k) - b%normal(:, k)) > zero) .or. &
-          abs(a%mu(k) - b%mu(k)) > zero) same_geometry = .false.
+          any(abs(a%normal(:, k) - b%normal(:, k)) > zero)) &
+          same_geometry = .false.
     end do
     do k = 1, a%first(a%n + 1) - 1
       if (a%point(k) /= b%point(k) .or. abs(a%weight(k) - b%weight(k)) > zero) &

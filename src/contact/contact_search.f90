@@ -9,6 +9,7 @@ module contact_search
   use contact_condense, only: make_interface
   use contact_monitor, only: check_start, check_whole
   use contact_pairing, only: pairing_t
+  use contact_ramp, only: set_ramp
   use contact_surface, only: surface_t
   use contact_types, only: contact_t
   use model_data, only: model_t
@@ -42,6 +43,7 @@ contains
         acts = t1 >= pairing%birth .and. t1 <= pairing%death
         if (acts .neqv. contact%acts(p)) searched = .true.
         contact%acts(p) = acts
+        if (allocated(pairing%ramp)) call set_ramp(pairing%ramp, t1 - h, t1)
         if (.not. acts) cycle
         call test_list(pairing, u, largest, is_due)
         if (.not. is_due) cycle

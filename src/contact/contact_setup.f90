@@ -4,14 +4,16 @@ module contact_setup
   use base_kinds, only: wp, zero, half
   use cone_types, only: cone_options_t, contact_open
   use contact_area, only: make_nodal
+  use contact_friction, only: friction_t, friction_varies
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
   use contact_registry, only: make_pairing
+  use contact_ramp, only: make_ramp
   use contact_rows, only: start_rows
   use contact_surface, only: make_surface
   use contact_types, only: contact_t
   use contact_wall, only: pairing_wall_t
-  use deck_names, only: field_names, table_ncforc
+  use deck_names, only: field_names, table_ncforc, overlap_ramp
   use model_data, only: model_t, contact_card_t, wall_t, side_node_set, &
       side_all_nodes
   implicit none
@@ -57,6 +59,8 @@ contains
     end do
     do p = 1, n
       call set_common(model, p, contact%pairing(p)%item)
+      contact%friction_varies = contact%friction_varies .or. &
+          friction_varies(contact%pairing(p)%item%friction)
     end do
   end subroutine make_contact
 
@@ -79,11 +83,17 @@ contains
     integer :: s
     pairing%id = card%id
     pairing%record = card%record
-    pairing%mu = card%mu
+    pairing%friction = friction_t(card%mu, card%kinetic_mu, card%friction_decay)
     pairing%restitution = merge(model%controls%restitution, card%restitution, &
         card%restitution < zero)
     pairing%birth = card%birth
     pairing%death = card%death
+    if (card%overlap == overlap_ramp) then
+      allocate (pairing%ramp)
+      pairing%may_overlap = .true.
+      call make_ramp(pairing%ramp, model%nodes, merge(model%controls%static_until, &
+          model%controls%end_time, model%controls%static_until > zero))
+    end if
     if (card%is_self) then
       call make_surface(model, card%kind(1), 0, pairing%side(1), card%parts)
       call empty_side(pairing)
@@ -113,7 +123,7 @@ contains
     pairing%is_wall = .true.
     pairing%id = wall%id
     pairing%record = wall%record
-    pairing%mu = wall%mu
+    pairing%friction = friction_t(static=wall%mu, kinetic=wall%mu)
     pairing%restitution = model%controls%restitution
     pairing%birth = wall%birth
     pairing%death = wall%death

@@ -7,7 +7,6 @@ module contact_stage
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify
-  use cone_solver, only: solve_cone
   use cone_types, only: certificate_t, contact_open, size_cone_work
   use contact_assemble, only: find_rows, add_missing_rows, count_rows
   use contact_condense, only: build_w
@@ -15,6 +14,7 @@ module contact_stage
   use contact_purse, only: start_purses, open_purses, set_offsets, purse_is_short
   use contact_rows, only: rows_t, relative_displacement, add_row_force
   use contact_rule, only: level_position, level_velocity
+  use contact_slip, only: solve_friction
   use contact_types, only: contact_t, tally_t
   use contact_velocity, only: find_velocity_rows, keep_pressed_rows, activate_all, &
       add_restitution, largest_component
@@ -217,8 +217,7 @@ contains
     type(status_t), intent(inout) :: status
     integer :: k
     contact%solves_without_contact = 0
-    call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
-        certificate, status)
+    call solve_friction(contact, certificate, status)
     if (certificate%worst > 0) call add_place(status, 'node '// &
         to_text(model%node_id(contact%rows%key(3, contact%row_of(certificate%worst)))))
     call keep_certificate(certificate, contact%tally)
@@ -228,6 +227,7 @@ contains
       associate (rows => contact%rows, a => contact%row_of(k))
         rows%r(:, a) = zero    ! a frame that has turned may have left a tangential part
         rows%r(1:contact%d, a) = contact%r(:, k)/contact%rule%factor
+        if (contact%friction_varies) rows%mu(a) = contact%mu(k)
         rows%status(a) = contact%work%status(k)
         if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open
         call add_row_force(rows, a, contact%rule%factor, rows%slot, force)

@@ -2,6 +2,7 @@
 !> Contact of a scene: its pairings, the rows of the step, and the condensed problem for them.
 module contact_types
   use base_kinds, only: wp, zero
+  use cone_anderson, only: anderson_t
   use cone_dense, only: delassus_dense_t
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use contact_pairing, only: pairing_slot_t, late_t
@@ -45,6 +46,8 @@ module contact_types
     logical :: splits_work = .true.
     real(wp) :: largest_velocity = zero           !< on velocities: of all nodes [L/T]
     logical :: was_on_velocities = .false.        !< the last stage: offsets, active rows
+    logical :: friction_varies = .false.          !< with the speed of slip, in some pairing
+    real(wp) :: step_length = zero                !< [T]
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
@@ -62,6 +65,9 @@ module contact_types
     integer, allocatable :: row_of(:)             !< (n)
     type(delassus_dense_t) :: w
     real(wp), allocatable :: q(:, :), mu(:), r(:, :)
+    real(wp), allocatable :: mu_law(:)            !< (n) where friction varies: of the slips
+    real(wp), allocatable :: mu_bound(:, :)       !< (2, n) between which the answer is
+    type(anderson_t), allocatable :: mu_memory    !< of its iteration
     !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)

@@ -110,7 +110,7 @@ contains
     do i = 1, this%near%n
       associate (node => this%side(1)%node(this%near%node(i)))
         call add_row(rows, [this%number, 1, node, 0], [node], [one], this%normal, &
-            this%gap(i), this%mu, edge_length(this), row_wall, zero)
+            this%gap(i), this%friction%static, edge_length(this), row_wall, zero)
       end associate
     end do
   end subroutine wall_append_rows

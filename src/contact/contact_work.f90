@@ -5,6 +5,7 @@ module contact_work
   use base_kinds, only: wp, zero, one
   use cone_certificate, only: bipotential_residual
   use cone_types, only: certificate_t, contact_open, contact_stick
+  use contact_ramp, only: ramp_push
   use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force
   use contact_pairing, only: node_forces_t, pair_sums_t, no_gap
   use contact_surface, only: surface_t
@@ -17,6 +18,7 @@ module contact_work
     real(wp) :: friction = zero
     real(wp) :: normal = zero
     real(wp) :: unsolved = zero       !< gained through the error of the contact solve
+    real(wp) :: given = zero          !< by floors that rise (contact_ramp)
     real(wp) :: paid_back = zero      !< of the normal work by closing overlaps
   end type contact_work_t
 
@@ -205,6 +207,12 @@ contains
     real(wp) :: u(2)
     if (rows%status(a) == contact_open) return
     u = relative_displacement(rows, a, rows%point, du)
+    associate (pairing => contact%pairing(rows%key(1, a))%item)
+      if (allocated(pairing%ramp)) then
+        u(1) = u(1) - ramp_push(pairing%ramp, rows%key(3, a))
+        work%given = work%given + weight*rows%r(1, a)*ramp_push(pairing%ramp, rows%key(3, a))
+      end if
+    end associate
     associate (sums => contact%pairing(rows%key(1, a))%item%sums)
       sums%friction_work = sums%friction_work - weight*rows%r(2, a)*u(2)
       sums%normal_work = sums%normal_work - weight*rows%r(1, a)*u(1)

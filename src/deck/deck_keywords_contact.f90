@@ -36,9 +36,10 @@ contains
     end if
     call add_field(table, 'SFACT', 'R10 note =1.0 0=d', 'of penalty methods')
     call add_field(table, 'FREQ', 'I10 note =50 0=d', 'of penalty methods')
-    call add_field(table, 'FS', 'R10 =0.0 >=0', 'coefficient of friction mu')
-    call add_field(table, 'FD', 'R10 =0.0 0=d >=0', 'has no effect while DC = 0')
-    call add_field(table, 'DC', 'R10 fixed', 'decay of friction with velocity')
+    call add_field(table, 'FS', 'R10 =0.0 >=0', 'friction mu at rest')
+    call add_field(table, 'FD', 'R10 =0.0 0=d >=0', 'friction at speed; DC = 0: no effect')
+    call add_field(table, 'DC', 'R10 =0.0 0=d [T/L] >=0', &
+        'mu = FD + (FS - FD) exp(-DC speed of slip); 0: mu = FS')
     call add_card(table)
     call add_field(table, 'TBIRTH', 'R10 =0.0 [T]', 'contact is active from this time')
     call add_field(table, 'TDEATH', 'R10 =1.0E20 0=d [T]', 'to this time')

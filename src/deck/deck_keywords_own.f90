@@ -3,7 +3,7 @@
 module deck_keywords_own
   use cone_types, only: deck_solver_names, local_names
   use deck_names, only: table_keywords, table_timing, field_names, mass_names, step_modes, &
-      choices
+      overlaps, choices
   use deck_schemes, only: schemes
   use deck_table, only: table_t, add_keyword, add_card, add_field
   use linalg_order, only: order_names
@@ -98,6 +98,10 @@ contains
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
     call add_field(table, 'REST', 'R10 >=0 <=1', &
         'restitution of its contact nodes; blank = REST of *BIPACT_TIME')
+    call add_field(table, 'PAIRING', 'W10 =NODE |NODE|', 'how the sides are paired')
+    call add_field(table, 'QUAD', 'I10 fixed')
+    call add_field(table, 'OVERLAP', 'W10 =ERROR '//choices(overlaps), 'overlap at the '// &
+        'start: an error, contactor nodes are moved onto the obstacle, pushed out in statics')
     call add_step_keyword(table)
     call add_storage_keywords(table)
   end subroutine add_own_keywords

@@ -25,6 +25,11 @@ module deck_names
   integer, parameter, public :: step_fixed = 1, step_halve = 2, step_event = 3
   character(5), parameter, public :: step_modes(3) = [character(5) :: 'FIXED', 'HALVE', 'EVENT']
 
+  !> What becomes of bodies that overlap at the start: an error, nodes are moved, they are
+  !> pushed out in a static phase.
+  integer, parameter, public :: overlap_error = 1, overlap_adjust = 2, overlap_ramp = 3
+  character(6), parameter, public :: overlaps(3) = [character(6) :: 'ERROR', 'ADJUST', 'RAMP']
+
   !> Mass matrices.
   character(10), parameter, public :: mass_names(3) = [character(10) :: 'CONSISTENT', &
       'LUMPED', 'DISPERSION']

@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The scene as data: nodes, elements, parts, sets, loads, contact pairs, requests.
-!> Made once from the deck; nothing in it changes during the run.
+!> Made once from the deck; nothing in it changes during the run. (Before it begins
+!> contact_adjust may move nodes.)
 module model_data
   use base_kinds, only: wp
-  use deck_names, only: table_count, field_names, step_fixed
+  use deck_names, only: table_count, field_names, step_fixed, overlap_error
   use material_base, only: material_slot_t
   implicit none
   private
@@ -96,7 +97,10 @@ module model_data
     logical :: is_of_all = .false.  !< of all parts: what other cards name is theirs
     integer, allocatable :: parts(:)
     logical, allocatable :: leaves_out(:, :)   !< (parts, parts) pairs that do not touch
-    real(wp) :: mu = 0.0_wp
+    real(wp) :: mu = 0.0_wp         !< static
+    real(wp) :: kinetic_mu = 0.0_wp
+    real(wp) :: friction_decay = 0.0_wp !< with the speed of slip [T/L]
+    integer :: overlap = overlap_error  !< what becomes of one at the start
     real(wp) :: restitution = -1.0_wp   !< < 0: that of the scheme
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)

@@ -10,6 +10,7 @@ module run_data
   use base_messages, only: messages_t
   use base_timers, only: timers_t
   use contact_touch, only: touch_t
+  use contact_adjust, only: moved_node_t
   use contact_types, only: contact_t
   use cone_types, only: cone_options_t
   use deck_data, only: deck_t
@@ -166,6 +167,7 @@ module run_data
     !> Step in which each kind was first seen, and its time [T]
     integer :: first_warned(warning_kinds) = -1
     real(wp) :: first_time(warning_kinds) = zero
+    type(moved_node_t), allocatable :: moved(:)  !< onto obstacles, before the start
     logical :: quiet = .false.
     integer :: log_unit = -1
   end type run_t

@@ -96,6 +96,7 @@ contains
       if (stage > 1 .and. run%scheme%stage(stage)%only_in_contact .and. .not. acting) exit
       if (allocated(run%other)) call use_operator(run, stage)
       run%contact%rule = run%scheme%stage(stage)%rule
+      run%contact%step_length = run%scheme%h
       call solve_stage(run, stage, t1, acting, status)
       call check_finite(run, stage, status)
       if (run%plan%contact) call look_back(run, stage, again, status)
@@ -315,6 +316,8 @@ contains
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%state%du, run%ledger%contact)
     end if
+    run%ledger%motion = run%ledger%motion + run%ledger%contact%given
+    run%ledger%contact%given = zero
   end subroutine add_step_work
 
   !> Reactions of held dofs and their work in the step [F L].

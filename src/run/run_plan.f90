@@ -106,7 +106,10 @@ contains
     if (.not. plan%contact) then
       call add_feature(plan, 'friction', .false., 'no contact')
     else if (mu > zero) then
-      call add_feature(plan, 'friction', .true., 'mu = '//to_text(mu)//' at most')
+      call add_feature(plan, 'friction', .true., 'mu = '//to_text(mu)//' at most'// &
+          trim(merge(', falls with the speed of slip', repeat(' ', 30), &
+          any(model%contact%friction_decay > zero .and. &
+          model%contact%kinetic_mu < model%contact%mu))))
     else
       call add_feature(plan, 'friction', .false., &
           'mu = 0 in all pairs: scalar contact rows only')

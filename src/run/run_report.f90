@@ -34,6 +34,7 @@ contains
     write (run%log_unit, '(a)') 'title: '//trim(run%model%title)
     write (run%log_unit, '(a)') 'deck:  '//run%deck%file(1)%path
     call write_plan(run, run%log_unit)
+    if (allocated(run%moved)) call write_moved(run, run%log_unit)
     if (allocated(run%restarted)) write (run%log_unit, '(a)') 'restarted from '// &
         run%restarted//', step '//to_text(run%state%cycle)//', time '// &
         to_text(run%state%time)
@@ -74,6 +75,19 @@ contains
       write (unit, '(a)') plan_line(run%plan, k)
     end do
   end subroutine write_plan
+
+  !> Nodes that OVERLAP ADJUST has moved before the start.
+  subroutine write_moved(run, unit)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: unit
+    integer :: k
+    write (unit, '(a)') 'moved onto obstacles: contact, node, by x, by y'
+    do k = 1, size(run%moved)
+      associate (m => run%moved(k))
+        write (unit, '(2i10,2(1x,es24.16e3))') m%contact, run%model%node_id(m%node), m%by
+      end associate
+    end do
+  end subroutine write_moved
 
   !> Notes, warnings and the closing summary into the log; on the screen the warnings that it
   !> has not shown and the summary; then summary.json with the same numbers.

@@ -2,14 +2,18 @@
 !> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
 module run_setup
   use assembly_bending, only: make_bending
+  use assembly_forces, only: first_inverted
   use assembly_system, only: make_system, stiffness_ratio
   use base_kinds, only: wp, zero, one
-  use base_status, only: status_t, fail, failed, add_place, status_numerical
+  use base_messages, only: add_message
+  use base_status, only: status_t, fail, failed, add_place, status_numerical, status_deck
   use base_timers, only: phase_input, phase_assemble, phase_search, phase_other
+  use contact_adjust, only: adjust_nodes
   use contact_rule, only: level_position, level_velocity
   use contact_search, only: update_lists
   use contact_setup, only: make_contact, contact_nodes
   use deck_keywords, only: fill_table
+  use deck_names, only: overlap_adjust
   use deck_parameter, only: override_t
   use deck_reader, only: read_deck
   use base_strings, only: to_text
@@ -63,11 +67,16 @@ contains
     allocate (massless(0))
     if (run%plan%contact) then
       call make_contact(run%model, run%cone, run%contact)
+      if (any(run%model%contact%overlap == overlap_adjust)) then
+        call adjust_nodes(run%model, run%contact, run%moved)
+        call make_contact(run%model, run%cone, run%contact)
+      end if
       if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
     else
       allocate (run%contact%interface_node(0), run%contact%pairing(0), run%contact%rows)
     end if
     call make_system(run%model, massless, run%system, status)
+    if (allocated(run%moved)) call tell_moved(run, status)
     if (failed(status)) return
     run%static_steps = static_steps(run%model%controls, run%plan%full_steps)
     run%step%mode = run%model%controls%step_mode
@@ -113,6 +122,26 @@ contains
     call plan_refinement(run)
     call run%timers%enter(phase_other)
   end subroutine set_up
+
+  !> A note of nodes that were moved onto obstacles; fails where that has spoilt an element.
+  subroutine tell_moved(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    integer :: element, k
+    real(wp) :: farthest
+    farthest = zero
+    do k = 1, size(run%moved)
+      farthest = max(farthest, norm2(run%moved(k)%by))
+    end do
+    call add_message(run%notes, '', 'OVERLAP ADJUST moved '//to_text(size(run%moved))// &
+        ' nodes onto obstacles, by '//to_text(farthest)//' at most; the log lists them')
+    allocate (run%state%u(2, run%model%nodes), source=zero)
+    element = first_inverted(run%system, run%model%x, run%state%u)
+    deallocate (run%state%u)
+    if (element > 0) call fail(status, status_deck, 'OVERLAP ADJUST turns element '// &
+        to_text(run%model%element_id(element))//' inside out', &
+        hint='the overlap is as deep as the element: move the bodies apart in the mesh')
+  end subroutine tell_moved
 
   !> Steps of the static phase: all, those up to TDYBIR, or none.
   pure integer function static_steps(controls, steps)

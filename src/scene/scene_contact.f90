@@ -5,6 +5,7 @@ module scene_contact
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_heads, only: head_number
+  use deck_names, only: overlaps, overlap_error, overlap_adjust, overlap_ramp
   use deck_problems, only: add_note, add_warning
   use model_data, only: model_t, contact_card_t, wall_t, side_part_set, side_node_set, &
       side_part, side_segment_set, side_all_parts
@@ -44,6 +45,9 @@ contains
       call find_sides(deck, model, maps, pair(k), model%contact(k))
     end do
     if (deck%problems%count == 0) call share_parts(deck, model)
+    do k = 1, size(record)
+      if (pair(k) > 0) call read_overlap(deck, model, pair(k), model%contact(k))
+    end do
     call warn_thickness(deck, model)
   end subroutine read_contacts
 
@@ -82,15 +86,32 @@ contains
     if (index(deck%block(deck%record(record)%block)%written, '_NODE_TO_') > 0) &
         card%contactor = 1
     card%is_self = index(deck%block(deck%record(record)%block)%written, 'SINGLE_SURFACE') > 0
-    card%mu = deck%real(record, 'FS')
-    if (deck%is_given(record, 'FD') .and. abs(deck%real(record, 'FD') - card%mu) > zero) &
-        call add_note(deck%problems, deck%place(record)// &
-        ': FD has no effect while DC = 0; friction is FS = '//to_text(card%mu))
+    call read_friction(deck, record, card)
     second = deck%follow(record, 2)
     if (second == 0) return
     card%birth = deck%real(second, 'TBIRTH')
     card%death = deck%real(second, 'TDEATH')
   end subroutine read_card
+
+  !> Friction: FS alone while DC is zero, else from FS at rest to FD at speed.
+  subroutine read_friction(deck, record, card)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    type(contact_card_t), intent(inout) :: card
+    card%mu = deck%real(record, 'FS')
+    card%kinetic_mu = deck%real(record, 'FD')
+    card%friction_decay = deck%real(record, 'DC')
+    if (card%friction_decay > zero) then
+      if (card%kinetic_mu > card%mu) call deck%complain(record, 'FD', 'kinetic friction FD = ' &
+          //to_text(card%kinetic_mu)//' is larger than static friction FS = '// &
+          to_text(card%mu), 'friction falls with the speed of slip: expected FD <= FS')
+      if (.not. deck%is_given(record, 'FD') .and. card%mu > zero) call add_note(deck%problems, &
+          deck%place(record)//': FD is blank: friction falls to zero at speed')
+    else if (deck%is_given(record, 'FD') .and. abs(card%kinetic_mu - card%mu) > zero) then
+      call add_note(deck%problems, deck%place(record)// &
+          ': FD has no effect while DC = 0; friction is FS = '//to_text(card%mu))
+    end if
+  end subroutine read_friction
 
   !> The id on the card of _ID before a record; the number in the deck where there is none.
   integer function id_before(deck, record, number)
@@ -130,6 +151,31 @@ contains
       r = deck%next('BIPACT_PAIR', 1, r)
     end do
   end subroutine read_pairs
+
+  !> What becomes of an overlap at the start, and what that asks for.
+  subroutine read_overlap(deck, model, record, card)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: record
+    type(contact_card_t), intent(inout) :: card
+    integer :: k
+    do k = 1, size(overlaps)
+      if (deck%word(record, 'OVERLAP') == overlaps(k)) card%overlap = k
+    end do
+    if (card%overlap == overlap_error) return
+    if (card%is_self) call deck%complain(record, 'OVERLAP', 'contact '//to_text(card%id)// &
+        ' is of a surface with itself, which has no obstacle', 'expected ERROR or blank')
+    if (card%overlap == overlap_adjust .and. (card%contactor == 3 .or. any(card%kind == &
+        side_node_set .or. card%kind == side_segment_set))) call deck%complain(record, &
+        'OVERLAP', 'ADJUST moves the nodes of one body out of another', &
+        'expected parts or part sets on both sides, and SIDE A, B or AUTO')
+    if (card%birth > zero) call deck%complain(record, 'OVERLAP', 'contact '// &
+        to_text(card%id)//' does not act at the start', 'expected TBIRTH = 0')
+    if (card%overlap == overlap_ramp .and. .not. (model%controls%is_static .or. &
+        model%controls%static_until > zero)) call deck%complain(record, 'OVERLAP', &
+        'RAMP pushes bodies apart in a static phase, and there is none', &
+        'give TDYBIR of *CONTROL_IMPLICIT_DYNAMICS, or IMASS 0')
+  end subroutine read_overlap
 
   !> What SURFA and SURFB are: part sets, negative node sets, or as ATYP and BTYP say.
   subroutine find_sides(deck, model, maps, pair, card)

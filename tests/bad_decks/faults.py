@@ -502,7 +502,8 @@ BLOCK_FAULTS = [
     ("two cards on the same parts", "*END", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n" + CONTACT + "\n*END"),
     ("frame that is not available", "*END", "*BIPACT_CONTACT\n\n                 MID\n*END"),
     ("tied contact", CONTACT + "\n", CONTACT + "\n\n                              1\n"),
-    ("friction that decays", CONTACT, CONTACT + " " * 20 + "       0.3       0.1       1.0"),
+    ("friction that rises", CONTACT, CONTACT + " " * 20 + "       0.1       0.3       1.0"),
+    ("decay of friction", CONTACT, CONTACT + " " * 20 + "       0.3       0.1      -1.0"),
     ("negative friction", CONTACT, CONTACT + " " * 20 + "      -0.3"),
     ("viscous friction", CONTACT + "\n", CONTACT + "\n\n       1.0\n"),
     (
@@ -518,6 +519,16 @@ BLOCK_FAULTS = [
     ("pair of no contact", "*END", "*BIPACT_PAIR\n         5         A\n*END"),
     ("pair with no side", "*END", "*BIPACT_PAIR\n         1      NONE\n*END"),
     ("pair twice", "*END", "*BIPACT_PAIR\n         1         A\n         1         B\n*END"),
+    ("ramp without statics", "*END", "*BIPACT_PAIR\n         1,,,,,,,RAMP\n*END"),
+    (
+        "adjusted node set",
+        CONTACT,
+        "        -1        12",
+        "*END",
+        "*SET_NODE_LIST\n1,\n5,6\n*BIPACT_PAIR\n1,,,,,,,ADJUST\n*END",
+    ),
+    ("adjusted by both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,,,ADJUST\n*END"),
+    ("overlap of no such kind", "*END", "*BIPACT_PAIR\n1,,,,,,,PUSH\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
     (
         "wall without normal",

@@ -19,6 +19,7 @@ for folder in ("support", "decks"):
 import contact_geometry as geometry
 import scenes
 from full_disk import on_small_disk, one_message, starved
+import stick_slip
 from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, show
 
 import fields
@@ -53,6 +54,8 @@ def scene(name):
         make_scenes.write(path, "sliding", n=3, tend=0.1, courant=2.0)
     elif name == "pushed":
         make_scenes.write(path, "pushed", n=3, tend=0.4, courant=8.0)
+    elif name == "stick-slip":
+        return stick_slip.oscillator(0.02, "THETA,0.55,0.55", tend=9.0)
     elif name.startswith("damped"):
         scheme = "NEWMARK" if name == "damped-newmark" else "THETA"
         make_bars.write(path, scheme=scheme, mu=0.2, slide=0.2, **bars)
@@ -69,7 +72,7 @@ DAMPING = (
 )
 SCENES = (
     "smooth friction massless newmark lumped explicit asleep wall block pushed damped "
-    "damped-newmark".split()
+    "damped-newmark stick-slip".split()
 )
 
 

@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# ramp in press_fit.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/press_fit.py" ramp

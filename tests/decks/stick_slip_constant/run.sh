@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# constant in stick_slip.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/stick_slip.py" constant
