@@ -103,16 +103,28 @@ module model_data
     integer :: record = 0
   end type contact_card_t
 
-  !> A rigid plane in front of some nodes.
+  !> A rigid wall in front of some nodes: a plane, or a shape that moves with a node.
   type, public :: wall_t
     integer :: id = 0
+    character(10) :: shape = 'WALL' !< name of its pairing; WALL is a plane that never moves
     integer :: node_set = 0         !< row; 0 = all nodes
-    real(wp) :: point(2) = 0.0_wp   !< on the plane [L]
+    real(wp) :: point(2) = 0.0_wp   !< on the plane, an end, the centre [L]
     real(wp) :: normal(2) = 0.0_wp  !< toward the bodies
     real(wp) :: mu = 0.0_wp
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)
     integer :: record = 0
+    ! Of shapes that have a node:
+    integer :: node = 0             !< row
+    real(wp) :: along(2) = 0.0_wp   !< from the point to the other end
+    real(wp) :: length = 0.0_wp     !< of a finite one; 0 = without ends [L]
+    real(wp) :: radius = 0.0_wp     !< [L]
+    logical :: is_interior = .false.!< the bodies are inside
+    real(wp) :: mass = 0.0_wp       !< > 0: it slides freely along its normal [M]
+    real(wp) :: speed = 0.0_wp      !< at t = 0, along the normal [L/T]
+    real(wp) :: direction(2) = 0.0_wp  !< of a prescribed motion
+    integer :: motion = 0           !< its kind, motion_...
+    integer :: curve = 0            !< 0: it stands still
   end type wall_t
 
   !> Field files: which fields, when, of which parts.
@@ -178,13 +190,15 @@ module model_data
     logical :: stop_on_growth = .false.
     real(wp) :: rotation_warning = 5.0_wp      !< [degrees]
     real(wp) :: penetration_tolerance = 1.0e-9_wp
-    character(10) :: frame = 'START'    !< normals of contact: START or REF
+    character(10) :: frame = ''         !< normals of contact: START, MID or REF
   end type controls_t
 
   type, public :: model_t
     character(80) :: title = ''
     real(wp) :: z = 0.0_wp              !< of the plane [L]
     integer :: nodes = 0
+    !> Of them the last, which belong to no element: rigid bodies, each with its motion
+    integer :: bodies = 0
     integer, allocatable :: node_id(:)
     real(wp), allocatable :: x(:, :)         !< (2, nodes) [L]
     real(wp), allocatable :: v0(:, :)        !< (2, nodes) initial velocity [L/T]
