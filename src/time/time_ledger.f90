@@ -63,7 +63,7 @@ contains
     call find_owners(model, ledger)
     ledger%part_mass = zero
     do i = 1, model%nodes
-      if (ledger%owner(i) == 0) cycle
+      if (ledger%owner(i) <= 0) cycle
       ledger%part_mass(ledger%owner(i)) = ledger%part_mass(ledger%owner(i)) + system%lumped(i)
     end do
     do k = 1, size(ledger%share)
