@@ -3,6 +3,7 @@
 !> Made once from the deck; nothing in it changes during the run.
 module model_data
   use base_kinds, only: wp
+  use base_strings, only: to_text
   use deck_names, only: table_count, field_names, step_fixed
   use material_base, only: material_slot_t
   implicit none
@@ -229,7 +230,7 @@ module model_data
     type(controls_t) :: controls
   end type model_t
 
-  public :: count_steps, curve_value, curve_slope, node_count, segment_owner
+  public :: count_steps, curve_value, curve_slope, node_count, segment_owner, node_name
 
 contains
 
@@ -282,6 +283,21 @@ contains
           curve_slope = (curve%o(k) - curve%o(k - 1))/(curve%a(k) - curve%a(k - 1))
     end do
   end function curve_slope
+
+  !> "node 12", or "an end of wall 3" of the node that carries a wall.
+  pure function node_name(model, node) result(name)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: node
+    character(:), allocatable :: name
+    integer :: k
+    name = 'node '//to_text(model%node_id(node))
+    if (node <= model%nodes - model%bodies) return
+    do k = 1, size(model%wall)
+      if (model%wall(k)%node /= node) cycle
+      name = 'an end of wall '//to_text(model%wall(k)%id)
+      if (model%wall(k)%radius > 0.0_wp) name = 'wall '//to_text(model%wall(k)%id)
+    end do
+  end function node_name
 
   !> 3 for a triangle, 4 for a quadrilateral.
   pure integer function node_count(corner)
