@@ -13,6 +13,9 @@ Graff 1975, Wave Motion in Elastic Solids; Goldsmith 1960, Impact).
     Impact          any two bars, by characteristics: force, displacements, energies, fields
     Oblique         two layers, half spaces or a wall: plane P and S waves, stick or slip
     unequal_lengths, staircase, interface, touch_time: closed forms
+    mass_on_rod     a rigid mass that strikes a rod
+    GlidingBlock    a block on its two lower corners in a smooth bowl
+    Belt            a block on a belt
 """
 
 import argparse
@@ -605,6 +608,75 @@ class StickSlip:
     @property
     def period(self):
         return self.stick + self.slip
+
+
+def mass_on_rod(impedance, mass, velocity, t):
+    """Force [F] of a rigid mass that strikes the end of a rod at rest: Z V exp(-Z t/M), until the
+    wave comes back from the other end at 2 L/c (Saint-Venant 1883; Goldsmith 1960)."""
+    return impedance * velocity * np.exp(-impedance * np.asarray(t) / mass)
+
+
+@dataclass(frozen=True)
+class GlidingBlock:
+    """A stiff block that glides without friction on its two lower corners in a bowl, small swings.
+
+    It turns about the centre of the bowl, with the inertia I about it. Its corners are at depth
+    d = sqrt(R^2 - a^2). A rigid body has its centre raised by (d - H/2) phi^2/2; in the kinematics
+    of small displacements a turn is phi e_z x X, which makes the block larger, and the corners
+    stay on the circle when it is raised by R^2 phi^2/(2 d) as a whole."""
+
+    radius: float = 2.0  # R [L]
+    half_width: float = 0.5  # a
+    height: float = 0.4  # H
+    gravity: float = 10.0  # [L T-2]
+
+    @property
+    def depth(self):
+        """d [L]"""
+        return float(np.sqrt(self.radius**2 - self.half_width**2))
+
+    @property
+    def inertia(self):
+        """I/m about the centre of the bowl [L2]"""
+        arm = self.depth - 0.5 * self.height
+        return (4.0 * self.half_width**2 + self.height**2) / 12.0 + arm**2
+
+    def period(self, small_displacements=True):
+        """[T]; of the physical pendulum without the kinematics of small displacements."""
+        raised = self.radius**2 / self.depth
+        if not small_displacements:
+            raised = self.depth - 0.5 * self.height
+        return float(2.0 * np.pi * np.sqrt(self.inertia / (self.gravity * raised)))
+
+
+@dataclass(frozen=True)
+class Belt:
+    """A rigid block at rest on a belt that runs at V: friction mu m g drives it until it has the
+    velocity of the belt, at V/(mu g) (Coulomb)."""
+
+    speed: float = 1.0  # V [L T-1]
+    mu: float = 0.2
+    gravity: float = 10.0  # [L T-2]
+    mass: float = 1.0  # [M]
+
+    @property
+    def catch(self):
+        """Time when the block sticks [T]"""
+        return self.speed / (self.mu * self.gravity)
+
+    def velocity(self, t):
+        """Of the block [L T-1]."""
+        return np.minimum(self.mu * self.gravity * np.asarray(t), self.speed)
+
+    def friction_work(self, t):
+        """mu m g times the slip [F L]; m V^2/2 in the end, as much as the block has."""
+        s = np.minimum(t, self.catch)
+        slip = self.speed * s - 0.5 * self.mu * self.gravity * s**2
+        return self.mu * self.mass * self.gravity * slip
+
+    def belt_work(self, t):
+        """mu m g times the way of the belt [F L]."""
+        return self.mu * self.mass * self.gravity * self.speed * np.minimum(t, self.catch)
 
 
 # ---------------------------------------------------------------- command line

@@ -122,6 +122,36 @@ SCENE = (
             [{"SURFA": 0, "FS": "&mu"}, {"TBIRTH": 0.03}],
         ),
         ("RIGIDWALL_PLANAR", [{"NSID": 3}, {"XT": 2.2, "XH": 1.0, "FRIC": 0.1}]),
+        (
+            "RIGIDWALL_PLANAR_MOVING",
+            [{"NSID": 3}, {"XT": 0.8, "XH": 1.0, "FRIC": 0.1}, {"MASS": 0.01, "V0": 0.1}],
+        ),
+        (
+            "RIGIDWALL_GEOMETRIC_FLAT",
+            [{"NSID": 3}, {"YT": 2.0, "YH": 1.0}, {"XHEV": 1.0, "YHEV": 2.0, "LENL": 3.0}],
+        ),
+        (
+            "RIGIDWALL_GEOMETRIC_FLAT_MOTION",
+            [{"NSID": 3}, {"YT": 3.0, "YH": 1.0}, {"LENL": 0.0}, {"LCID": 1, "VY": -1.0}],
+        ),
+        (
+            "RIGIDWALL_GEOMETRIC_CYLINDER",
+            [{"NSID": 3}, {"XT": -2.0, "XH": -2.0, "ZH": 1.0}, {"RADCYL": 0.5}],
+        ),
+        (
+            "RIGIDWALL_GEOMETRIC_CYLINDER_MOTION",
+            [
+                {"NSID": 3},
+                {"XT": 5.0, "XH": 5.0, "ZH": 1.0},
+                {"RADCYL": 0.5},
+                {"LCID": 1, "OPT": 1, "VX": -1.0},
+            ],
+        ),
+        ("RIGIDWALL_GEOMETRIC_CYLINDER_INTERIOR", [{"NSID": 3}, {"ZH": 1.0}, {"RADCYL": 9.0}]),
+        (
+            "RIGIDWALL_GEOMETRIC_CYLINDER_INTERIOR_MOTION",
+            [{"NSID": 3}, {"ZH": 1.0}, {"RADCYL": 9.5}, {"LCID": 1, "VY": 1.0}],
+        ),
         ("BIPACT_PAIR", [{"CID": 1, "SIDE": "AUTO"}]),
         ("DATABASE_HISTORY_NODE", [{"ID1": 101}]),
         ("DATABASE_HISTORY_NODE_ID", [{"ID1": 102, "HEADING": "middle"}]),

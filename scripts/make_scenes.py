@@ -11,6 +11,9 @@
     block          a block thrown obliquely at a rigid plane: its foot slips and sticks
     disc           a disc thrown obliquely at a rigid plane: contact that grows, as of Hertz
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
+    mass_on_rod    a rigid wall with a mass strikes a rod that is held at its other end
+    bowl           a stiff block that swings on its two lower corners in a smooth bowl
+    belt           a block set down on a belt that runs
 
 Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
 rest, rhoinf, rule, pbeta, gamma, beta, alpha), mass, redist, output, angle (turns it, degrees),
@@ -144,6 +147,21 @@ def plane(o, x, y, nx, ny, mu):
     return ["*RIGIDWALL_PLANAR", "0,", "%r,%r,,%r,%r,,%r" % (at + ahead + (mu,))]
 
 
+def geometric(o, shape, x, y, mu, size, motion=None, ahead=(0.0, 1.0)):
+    """A wall of *RIGIDWALL_GEOMETRIC_...; size: radius of a cylinder, (x, y, length) of a point of
+    a flat one and its length from x, y, or None; motion: (curve, OPT, direction)."""
+    name = "*RIGIDWALL_GEOMETRIC_" + shape + ("_MOTION" if motion else "")
+    at, mark = turned(o, x, y), turned(o, x + ahead[0], y + ahead[1])
+    if "CYLINDER" in shape:
+        out = [name, "0,", "%r,%r,,%r,%r,1.0,%r" % (at + at + (mu,)), "%r," % size]
+    else:
+        out = [name, "0,", "%r,%r,,%r,%r,,%r" % (at + mark + (mu,))]
+        out += ["%r,%r,,%r" % (turned(o, *size[:2]) + (size[2],)) if size else "0.0,"]
+    if motion:
+        out += ["%d,%d,%r,%r" % (motion[:2] + turned(o, *motion[2]))]
+    return out
+
+
 def moving(o, vx, vy):
     """Initial velocity of all nodes."""
     return ["*INITIAL_VELOCITY", "0,", "%r,%r" % turned(o, vx, vy)]
@@ -233,15 +251,15 @@ def bouncing(o, n=100, periods=1.0):
 
 
 def block_on_plane(
-    o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block", base=0
+    o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block", base=0, ground=None
 ):
     """A block with its foot on the plane y = 0: a rigid wall, or with base=1 a body that is
-    fixed in all its nodes."""
+    fixed in all its nodes, or what `ground` says."""
     c = (young / density) ** 0.5
     dt = step(o, size[0] / n, c)
     tend = math.ceil(tend / dt - 1.0e-9) * dt
     nodes, elements = grid(o, 0.0, 0.0, size[0], size[1], n, max(1, n // 2), 1, 1, 1)
-    materials, ground = [(density, young, 0.0)], plane(o, 0.0, 0.0, 0.0, 1.0, mu)
+    materials, ground = [(density, young, 0.0)], ground or plane(o, 0.0, 0.0, 0.0, 1.0, mu)
     if base:
         low, cells = grid(
             o, -0.5, -0.5, 2.5, 0.5, 2 * n, 1, 2, 1 + len(nodes), 1 + len(elements)
@@ -494,9 +512,97 @@ def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     return text, {"dt": dt, "tend": tend}
 
 
+def mass_on_rod(o, n=100, ratio=1.0, v=1.0, tend=1.9, mu=0.0):
+    """Length 10, c 1000, rho c 1; the mass is `ratio` of the rod's, the end `tend` transits."""
+    c, length = 1000.0, 10.0
+    dt = step(o, length / n, c)
+    tend = round(tend * length / c / dt) * dt
+    nodes, elements = grid(o, 0.0, 0.0, length, 1.0, n, 1, 1, 1, 1)
+    mass = ratio * length / c
+    at, ahead = turned(o, length, 0.0), turned(o, length - 1.0, 0.0)
+    text = deck(
+        o,
+        "a mass on a rod",
+        nodes,
+        elements,
+        [(1.0e-3, 1000.0, 0.0)],
+        controls(tend, dt, o, ["GLSTAT", "MATSUM", "RWFORC=%r" % dt]),
+        node_set(9, [i for i, x, _ in nodes if x == 0.0])
+        + ["*BOUNDARY_SPC_SET", "9,,1,1"]
+        + ["*RIGIDWALL_PLANAR_MOVING", "0,", "%r,%r,,%r,%r,,%r" % (at + ahead + (mu,))]
+        + ["%r,%r" % (mass, v)],
+    )
+    return text, {"dt": dt, "tend": tend, "mass": mass, "impedance": 1.0, "v": v}
+
+
+def bowl(o, n=2, steps=5000, periods=2.5, swing=1.0e-3, young=1.0e4, mu=0.0, frame="MID", ramp=0.25):
+    """The block of analytic.GlidingBlock, density 1e-3, starts at the bottom; gravity grows over
+    `ramp` of a period. frame: field of *BIPACT_CONTACT."""
+    from analytic import GlidingBlock  # needs numpy, which the other scenes do not
+
+    exact = GlidingBlock()
+    dt = periods * exact.period() / steps
+    width = 2.0 * exact.half_width
+    nodes, elements = grid(
+        o, -exact.half_width, -exact.depth, width, exact.height, n, n, 1, 1, 1
+    )
+    spin = swing * 2.0 * math.pi / exact.period()
+    extra = ["*INITIAL_VELOCITY_NODE"]
+    extra += ["%d,%r,%r" % ((i,) + turned(o, -spin * y, spin * x)) for i, x, y in nodes]
+    extra += curve(1, (0.0, 0.0), (ramp * exact.period(), exact.gravity), (1.0e3, exact.gravity))
+    extra += gravity(o, 1, 0.0, -1.0)
+    extra += geometric(o, "CYLINDER_INTERIOR", 0.0, 0.0, mu, exact.radius)
+    text = deck(
+        o,
+        "a block in a bowl",
+        nodes,
+        elements,
+        [(1.0e-3, young, 0.3)],
+        controls(steps * dt, dt, o, ["GLSTAT", "NODOUT", "RWFORC"]),
+        extra + ["*BIPACT_CONTACT", "AUTO,", ",%s" % frame] + history([i for i, _, _ in nodes]),
+    )
+    meta = {"nodes": nodes, "dt": dt, "tend": steps * dt, "exact": exact}
+    return text, dict(meta, ramp=ramp * exact.period())
+
+
+def belt(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7, ends=None):
+    """Density 1, 1 x 0.5; set down without stress (see sliding) on a flat wall that moves along
+    itself at v; ends: (from, to) of a finite one."""
+    motion = (2, 0, (1.0, 0.0))
+    size = (ends[1], 0.0, ends[1] - ends[0]) if ends else None
+    text, meta = block_on_plane(
+        o,
+        n,
+        young,
+        lambda nodes: curve(1, (0.0, g), (2 * tend, g))
+        + gravity(o, 1, 0.0, -1.0)
+        + curve(2, (0.0, v), (2 * tend, v)),
+        tend,
+        ["GLSTAT", "MATSUM", "RWFORC"],
+        mu,
+        title="block on a belt",
+        ground=geometric(o, "FLAT", ends[0] if ends else 0.0, 0.0, mu, size, motion),
+    )
+    return text, dict(meta, v=v, g=g)
+
+
 SCENES = {
     f.__name__: f
-    for f in (wall, bouncing, sliding, incline, pushed, chain, oblique, block, disc, drift)
+    for f in (
+        wall,
+        bouncing,
+        sliding,
+        incline,
+        pushed,
+        chain,
+        oblique,
+        block,
+        disc,
+        drift,
+        mass_on_rod,
+        bowl,
+        belt,
+    )
 }
 
 

@@ -202,7 +202,9 @@ contains
     do k = 1, size(model%gravity)
       associate (g => model%gravity(k))
         value = factor*g%factor*curve_value(model%curve(g%curve), time)
-        p(g%direction, :) = p(g%direction, :) - value*system%lumped
+        associate (n => model%nodes - model%bodies)
+          p(g%direction, :n) = p(g%direction, :n) - value*system%lumped(:n)
+        end associate
       end associate
     end do
   end subroutine add_loads

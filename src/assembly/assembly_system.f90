@@ -38,6 +38,7 @@ module assembly_system
     real(wp), allocatable :: stiffness(:, :, :)
     integer, allocatable :: massless_layer(:)  !< elements with a massless node
     type(damping_t), allocatable :: damping    !< only where the deck has it
+    integer, allocatable :: massless_body(:)   !< nodes without mass and element, all held
     !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
     !> node of each: set together, by CONSTRAIN
     logical, allocatable :: fixed(:, :)
@@ -70,6 +71,7 @@ contains
     allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
     call assemble_mass(model, system%element, system%graph, first, target, &
         [(one, k=1, size(model%part))], system%mass)
+    call add_bodies(model, system)
     call row_sums(system)
     call assemble_stiffness(model, system)
     call find_layer(model, massless, system)
@@ -77,6 +79,26 @@ contains
         call make_damping(model, first, target, system)
     call constrain(system, model%fixed)
   end subroutine make_system
+
+  !> Masses of rigid walls, and the walls that have none, whose motion is given.
+  pure subroutine add_bodies(model, system)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(inout) :: system
+    integer :: k, at
+    allocate (system%massless_body(0))
+    if (model%bodies == 0) return
+    do k = 1, size(model%wall)
+      associate (wall => model%wall(k))
+        if (wall%node == 0) cycle
+        if (.not. wall%mass > zero) then
+          system%massless_body = [system%massless_body, wall%node]
+          cycle
+        end if
+        at = system%graph%position(wall%node, wall%node)
+        system%mass(at) = wall%mass
+      end associate
+    end do
+  end subroutine add_bodies
 
   !> Elements that hold a massless node.
   pure subroutine find_layer(model, massless, system)
@@ -175,7 +197,8 @@ contains
   end subroutine assemble_stiffness
 
   !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their
-  !> diagonal only, so that a right-hand side of zero there gives a displacement of zero.
+  !> diagonal only (1 where they have no mass), so that a right-hand side of zero there gives a
+  !> displacement of zero.
   subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_c, c_layer, c_k
@@ -205,6 +228,11 @@ contains
         call clear_block(system%fixed(:, i), system%fixed(:, system%graph%column(k)), &
             system%graph%column(k) == i, matrix%value(:, :, k))
       end do
+    end do
+    do i = 1, size(system%massless_body)
+      k = system%graph%position(system%massless_body(i), system%massless_body(i))
+      matrix%value(1, 1, k) = one
+      matrix%value(2, 2, k) = one
     end do
   end subroutine effective_matrix
 
@@ -239,6 +267,7 @@ contains
     do i = 1, system%n
       matrix%diagonal(:, i) = c_m*system%lumped(i)
     end do
+    matrix%diagonal(:, system%massless_body) = one
   end subroutine diagonal_matrix
 
   pure subroutine clear_block(row, column, diagonal, block)
@@ -287,7 +316,7 @@ contains
         stiffness_ratio = max(stiffness_ratio, system%stiffness(i, i, e))
       end do
     end do
-    stiffness_ratio = stiffness_ratio*c_k/(c_m*maxval(system%lumped))
+    stiffness_ratio = stiffness_ratio*c_k/(c_m*maxval(system%lumped(:maxval(system%node))))
   end function stiffness_ratio
 
   !> y = y + factor * M x.

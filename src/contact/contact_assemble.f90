@@ -14,9 +14,6 @@ module contact_assemble
   private
   public :: find_rows, add_missing_rows, take_spare, count_rows
 
-  !> Most rounds in which frames are set anew.
-  integer, parameter :: most_late_rounds = 3
-
 contains
 
   !> Rows at displacement u (2, nodes) for the free motion x_free (2, m) of the interface. W
@@ -182,7 +179,8 @@ contains
     else
       call place_end(contact, u, contact%x_end)
       call find_late(model, contact, u, n)
-      if (n == 0 .or. contact%late_rounds == most_late_rounds) return
+      if (n == 0 .or. contact%late_rounds == contact%most_late_rounds) &
+          return
       contact%late_rounds = contact%late_rounds + 1
       is_complete = .false.
       call use_late(contact, n)

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The pairings by name: a new one is a file and its two lines here.
 module contact_registry
+  use contact_cylinder, only: cylinder_t
+  use contact_flat, only: flat_t
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
   use contact_wall, only: pairing_wall_t
@@ -19,6 +21,10 @@ contains
       allocate (pairing_node_t :: pairing)
     case ('WALL')
       allocate (pairing_wall_t :: pairing)
+    case ('FLAT')
+      allocate (flat_t :: pairing)
+    case ('CYLINDER')
+      allocate (cylinder_t :: pairing)
     end select
   end subroutine make_pairing
 

@@ -36,10 +36,11 @@ module contact_rows
     integer, allocatable :: status(:)
   end type rows_t
 
-  !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall;
-  !> late rows come when the solved step has shown that they are missing.
+  !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall, a
+  !> wall that slides along its normal, which no tangential force moves; late rows come when
+  !> the solved step has shown that they are missing.
   integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
-      row_kinds = 4
+      row_guided = 5, row_kinds = 5
 
   public :: start_rows, add_row, renew_gap, copy_row, copy_rows, swap_rows, same_geometry, &
       carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, &
@@ -367,6 +368,7 @@ contains
     force = factor*row_force(rows, a)
     do k = rows%first(a), rows%first(a + 1) - 1
       f(:, column(k)) = f(:, column(k)) + rows%weight(k)*force
+      if (rows%kind(a) == row_guided) force = factor*rows%r(1, a)*rows%normal(:, a)
     end do
   end subroutine add_row_force
 
@@ -388,6 +390,7 @@ contains
       dof(n + 1:n + 2) = [2*rows%slot(k) - 1, 2*rows%slot(k)]
       weight(n + 1:n + 2) = rows%weight(k)*e
       n = n + 2
+      if (component == 2 .and. rows%kind(a) == row_guided) exit   ! the wall's guide holds it
     end do
   end subroutine row_of_h
 

@@ -6,6 +6,7 @@ module contact_setup
   use contact_area, only: make_nodal
   use contact_friction, only: friction_t, friction_varies
   use contact_node, only: pairing_node_t
+  use contact_obstacle, only: obstacle_t
   use contact_pairing, only: pairing_t
   use contact_registry, only: make_pairing
   use contact_ramp, only: make_ramp
@@ -54,7 +55,8 @@ contains
       call set_card(model, model%contact(p), contact%pairing(p)%item)
     end do
     do p = 1, size(model%wall)
-      call make_pairing('WALL', contact%pairing(size(model%contact) + p)%item)
+      call make_pairing(trim(model%wall(p)%shape), &
+          contact%pairing(size(model%contact) + p)%item)
       call set_wall(model, model%wall(p), contact%pairing(size(model%contact) + p)%item)
     end do
     do p = 1, n
@@ -62,7 +64,22 @@ contains
       contact%friction_varies = contact%friction_varies .or. &
           friction_varies(contact%pairing(p)%item%friction)
     end do
+    call set_rounds(contact)
   end subroutine make_contact
+
+  !> Normals of the middle of the step are found in rounds, each of which gains as many digits
+  !> as a node moves less than the radius.
+  subroutine set_rounds(contact)
+    type(contact_t), intent(inout) :: contact
+    integer, parameter :: rounds_of_middle = 15
+    integer :: p
+    do p = 1, size(contact%pairing)
+      select type (pairing => contact%pairing(p)%item)
+      class is (obstacle_t)
+        if (pairing%is_curved .and. pairing%is_mid) contact%most_late_rounds = rounds_of_middle
+      end select
+    end do
+  end subroutine set_rounds
 
   !> What every pairing has.
   subroutine set_common(model, p, pairing)
@@ -134,6 +151,14 @@ contains
     type is (pairing_wall_t)
       pairing%point = wall%point
       pairing%normal = wall%normal
+    class is (obstacle_t)
+      pairing%body = wall%node
+      pairing%is_mid = any(model%controls%frame == [character(5) :: '', 'MID'])
+      pairing%side(2)%node = [wall%node]
+      pairing%side(2)%index(wall%node) = 1
+      deallocate (pairing%side(2)%chain)
+      allocate (pairing%side(2)%chain(2, 1), source=0)
+      call pairing%set_shape(wall)
     end select
   end subroutine set_wall
 

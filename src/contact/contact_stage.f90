@@ -18,7 +18,7 @@ module contact_stage
   use contact_types, only: contact_t, tally_t
   use contact_velocity, only: find_velocity_rows, keep_pressed_rows, activate_all, &
       add_restitution, largest_component
-  use model_data, only: model_t
+  use model_data, only: model_t, node_name
   implicit none
   private
   public :: solve_contact, correct_contact, evaluate_contact, certify_stage
@@ -218,8 +218,8 @@ contains
     integer :: k
     contact%solves_without_contact = 0
     call solve_friction(contact, certificate, status)
-    if (certificate%worst > 0) call add_place(status, 'node '// &
-        to_text(model%node_id(contact%rows%key(3, contact%row_of(certificate%worst)))))
+    if (certificate%worst > 0) call add_place(status, &
+        node_name(model, contact%rows%key(3, contact%row_of(certificate%worst))))
     call keep_certificate(certificate, contact%tally)
     contact%tally%sweeps = contact%tally%sweeps + certificate%sweeps
     contact%tally%sweeps_since_row = contact%tally%sweeps_since_row + certificate%sweeps
@@ -399,11 +399,11 @@ contains
     logical, intent(in) :: is_rigid
     type(status_t), intent(inout) :: status
     if (is_rigid) then
-      call fail(status, status_numerical, 'prescribed motions overlap: node '// &
-          to_text(model%node_id(node))//' is '//to_text(depth)//' deep in the other body', &
+      call fail(status, status_numerical, 'prescribed motions overlap: '// &
+          node_name(model, node)//' is '//to_text(depth)//' deep in the other body', &
           hint='both sides of this contact are held; change their motions')
     else
-      call fail(status, status_numerical, 'node '//to_text(model%node_id(node))// &
+      call fail(status, status_numerical, node_name(model, node)// &
           ' penetrates by '//to_text(depth)//', more than PENTOL times the edge', &
           hint='lower TOL on *BIPACT_CONTACT')
     end if

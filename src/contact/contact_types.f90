@@ -40,6 +40,7 @@ module contact_types
     type(rows_t), allocatable :: before           !< of the step before, if a scheme needs it
     type(late_t), allocatable :: late(:)          !< rows to be added
     integer :: late_rounds = 0                    !< of this step
+    integer :: most_late_rounds = 3               !< in which frames are set anew
     logical :: keeps_before = .false.
     type(contact_rule_t) :: rule                  !< of the stage
     !> r.dU of the step is friction and normal loss, each by its own formula

@@ -5,11 +5,10 @@
 module contact_velocity
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_numerical
-  use base_strings, only: to_text
   use contact_assemble, only: find_rows, take_spare
   use contact_rows, only: rows_t, relative_displacement
   use contact_types, only: contact_t
-  use model_data, only: model_t
+  use model_data, only: model_t, node_name
   implicit none
   private
   public :: find_velocity_rows, keep_pressed_rows, activate_all, add_restitution, &
@@ -66,7 +65,7 @@ contains
     integer :: a
     do a = 1, rows%n
       if (all(rows%slot(rows%first(a):rows%first(a + 1) - 1) > 0)) cycle
-      call fail(status, status_numerical, 'node '//to_text(model%node_id(rows%key(3, a)))// &
+      call fail(status, status_numerical, node_name(model, rows%key(3, a))// &
           ' has sunk in beyond the nodes that are listed', &
           hint='take a smaller step, or contact on positions')
       return

@@ -3,6 +3,7 @@
 !> dimensions), defaults and ranges, in pieces by subject.
 module deck_keywords
   use deck_keywords_contact, only: add_contact_keywords, add_output_keywords
+  use deck_keywords_wall, only: add_wall_keywords
   use deck_keywords_load, only: add_load_keywords
   use deck_keywords_mesh, only: add_mesh_keywords
   use deck_keywords_other, only: add_refused_keywords
@@ -23,6 +24,7 @@ contains
     call add_mesh_keywords(table)
     call add_load_keywords(table)
     call add_contact_keywords(table)
+    call add_wall_keywords(table)
     call add_output_keywords(table)
     call add_own_keywords(table)
   end subroutine fill_table

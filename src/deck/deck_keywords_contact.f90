@@ -19,7 +19,6 @@ contains
         'contact of two bodies; the nodes of SURFA are exact')
     call add_contact(table, 'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE', &
         'contact of all parts of SURFA with each other and with themselves')
-    call add_wall(table)
   end subroutine add_contact_keywords
 
   subroutine add_contact(table, name, help)
@@ -63,30 +62,6 @@ contains
     call add_field(table, 'SLDSOB', 'R10 fixed')
     call add_field(table, 'TDPEN', 'R10 note', 'of penalty methods')
   end subroutine add_contact
-
-  subroutine add_wall(table)
-    type(table_t), intent(inout) :: table
-    call add_keyword(table, 'RIGIDWALL_PLANAR', 'a rigid plane that does not move', &
-        id=.true., title_is_id=.true., required=2)
-    call add_card(table)
-    call add_field(table, 'NSID', 'I10 =0 >=0', 'node set in front of the wall; 0 = all nodes')
-    call add_field(table, 'NSIDEX', 'I10 fixed')
-    call add_field(table, 'BOXID', 'I10 fixed')
-    call add_field(table, 'OFFSET', 'R10 fixed', 'the node set says which nodes')
-    call add_field(table, 'BIRTH', 'R10 =0.0 [T]', 'the wall is there from this time')
-    call add_field(table, 'DEATH', 'R10 =1.0E20 0=d [T]', 'to this time')
-    call add_field(table, 'RWKSF', 'R10 note =1.0 0=d', 'of penalty methods')
-    call add_card(table)
-    call add_field(table, 'XT', 'R10 =0.0 [L]', 'a point T on the wall')
-    call add_field(table, 'YT', 'R10 =0.0 [L]', 'the same')
-    call add_field(table, 'ZT', 'R10 =0.0 [L]', 'the same as ZH')
-    call add_field(table, 'XH', 'R10 =0.0 [L]', 'a point H in front of it: the normal is TH')
-    call add_field(table, 'YH', 'R10 =0.0 [L]', 'the same')
-    call add_field(table, 'ZH', 'R10 =0.0 [L]', 'the same as ZT: the model is plane')
-    call add_field(table, 'FRIC', 'R10 =0.0 >=0 <=1', &
-        'coefficient of friction mu; 1 = no sliding (mu = 1e6)')
-    call add_field(table, 'WVEL', 'R10 fixed', 'the wall does not move')
-  end subroutine add_wall
 
   !> Adds the requests for tables and their nodes and elements.
   subroutine add_output_keywords(table)

@@ -59,8 +59,8 @@ contains
         '1 = start from the reactions of the last step')
     call add_card(table)
     call add_field(table, 'WSTORE', 'W10 =AUTO |AUTO|DENSE|', 'storage of W')
-    call add_field(table, 'FRAME', 'W10 =START |START|REF|', &
-        'normals of contact: start of the step, or reference geometry')
+    call add_field(table, 'FRAME', 'W10 |START|MID|REF|', &
+        'normals: start of the step (blank: MID at curved walls), its middle, reference')
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &
         'accepted penetration / segment length')
     call add_field(table, 'ROTWARN', 'R10 =5.0 >0', 'degrees of rotation that are warned of')

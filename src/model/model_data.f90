@@ -4,6 +4,7 @@
 !> contact_adjust may move nodes.)
 module model_data
   use base_kinds, only: wp
+  use base_strings, only: to_text
   use deck_names, only: table_count, field_names, step_fixed, overlap_error
   use material_base, only: material_slot_t
   implicit none
@@ -107,16 +108,28 @@ module model_data
     integer :: record = 0
   end type contact_card_t
 
-  !> A rigid plane in front of some nodes.
+  !> A rigid wall in front of some nodes: a plane, or a shape that moves with a node.
   type, public :: wall_t
     integer :: id = 0
+    character(10) :: shape = 'WALL' !< name of its pairing; WALL is a plane that never moves
     integer :: node_set = 0         !< row; 0 = all nodes
-    real(wp) :: point(2) = 0.0_wp   !< on the plane [L]
+    real(wp) :: point(2) = 0.0_wp   !< on the plane, an end, the centre [L]
     real(wp) :: normal(2) = 0.0_wp  !< toward the bodies
     real(wp) :: mu = 0.0_wp
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)
     integer :: record = 0
+    ! Of shapes that have a node:
+    integer :: node = 0             !< row
+    real(wp) :: along(2) = 0.0_wp   !< from the point to the other end
+    real(wp) :: length = 0.0_wp     !< of a finite one; 0 = without ends [L]
+    real(wp) :: radius = 0.0_wp     !< [L]
+    logical :: is_interior = .false.!< the bodies are inside
+    real(wp) :: mass = 0.0_wp       !< > 0: it slides freely along its normal [M]
+    real(wp) :: speed = 0.0_wp      !< at t = 0, along the normal [L/T]
+    real(wp) :: direction(2) = 0.0_wp  !< of a prescribed motion
+    integer :: motion = 0           !< its kind, motion_...
+    integer :: curve = 0            !< 0: it stands still
   end type wall_t
 
   !> Field files: which fields, when, of which parts.
@@ -182,13 +195,15 @@ module model_data
     logical :: stop_on_growth = .false.
     real(wp) :: rotation_warning = 5.0_wp      !< [degrees]
     real(wp) :: penetration_tolerance = 1.0e-9_wp
-    character(10) :: frame = 'START'    !< normals of contact: START or REF
+    character(10) :: frame = ''         !< normals of contact: START, MID or REF
   end type controls_t
 
   type, public :: model_t
     character(80) :: title = ''
     real(wp) :: z = 0.0_wp              !< of the plane [L]
     integer :: nodes = 0
+    !> Of them the last, which belong to no element: rigid bodies, each with its motion
+    integer :: bodies = 0
     integer, allocatable :: node_id(:)
     real(wp), allocatable :: x(:, :)         !< (2, nodes) [L]
     real(wp), allocatable :: v0(:, :)        !< (2, nodes) initial velocity [L/T]
@@ -219,7 +234,7 @@ module model_data
     type(controls_t) :: controls
   end type model_t
 
-  public :: count_steps, curve_value, curve_slope, node_count, segment_owner
+  public :: count_steps, curve_value, curve_slope, node_count, segment_owner, node_name
 
 contains
 
@@ -272,6 +287,21 @@ contains
           curve_slope = (curve%o(k) - curve%o(k - 1))/(curve%a(k) - curve%a(k - 1))
     end do
   end function curve_slope
+
+  !> "node 12", or "an end of wall 3" of the node that carries a wall.
+  pure function node_name(model, node) result(name)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: node
+    character(:), allocatable :: name
+    integer :: k
+    name = 'node '//to_text(model%node_id(node))
+    if (node <= model%nodes - model%bodies) return
+    do k = 1, size(model%wall)
+      if (model%wall(k)%node /= node) cycle
+      name = 'an end of wall '//to_text(model%wall(k)%id)
+      if (model%wall(k)%radius > 0.0_wp) name = 'wall '//to_text(model%wall(k)%id)
+    end do
+  end function node_name
 
   !> 3 for a triangle, 4 for a quadrilateral.
   pure integer function node_count(corner)

@@ -8,7 +8,7 @@ module run_report
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
-  use contact_rows, only: row_edge, row_vertex, row_second, row_wall
+  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
   use deck_names, only: step_fixed
@@ -66,7 +66,8 @@ contains
     type(run_t), intent(in) :: run
     integer, intent(in) :: unit
     integer :: k
-    write (unit, '(a)') 'scene: '//to_text(run%model%nodes)//' nodes, '// &
+    write (unit, '(a)') 'scene: '//to_text(run%model%nodes - run%model%bodies)// &
+        ' nodes, '// &
         to_text(run%model%elements)//' elements, '//to_text(size(run%model%part))// &
         ' parts; scheme '//trim(run%model%controls%scheme)//', mass '// &
         trim(run%model%controls%mass)
@@ -152,7 +153,8 @@ contains
     associate (t => contact%tally)
       line = 'rows in contact solves: edge '//to_text(t%rows(row_edge))//', vertex '// &
           to_text(t%rows(row_vertex))//', second '//to_text(t%rows(row_second))//', wall '// &
-          to_text(t%rows(row_wall))//'; of them with an allowance '//to_text(t%allowances)
+          to_text(t%rows(row_wall) + t%rows(row_guided))//'; of them with an allowance '// &
+          to_text(t%allowances)
       write (unit, '(a)') line
       write (unit, '(a)') '  late rows '//to_text(t%late_rows)//', frames redone '// &
           to_text(t%new_frames)//', repeats for the purse '//to_text(t%repeats)// &

@@ -28,7 +28,7 @@ contains
     real(wp) :: size_2, c_2
     integer :: b, e, i
     call find_bodies(model, body)
-    do b = 1, maxval(body)
+    do b = 1, maxval(body(:model%nodes - model%bodies))
       if (rigid_motions_held(model, system, body, b) == 3) cycle
       if (.not. allocated(shift)) allocate (shift(system%n), source=zero)
       size_2 = max(maxval(model%x(1, :), body == b) - minval(model%x(1, :), body == b), &

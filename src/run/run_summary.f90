@@ -10,7 +10,7 @@ module run_summary
   use base_system, only: peak_memory
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
-  use contact_rows, only: row_edge, row_vertex, row_second, row_wall
+  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided
   use deck_data, only: deck_t
   use run_data, only: run_t
   implicit none
@@ -158,7 +158,7 @@ contains
     type(json_t), intent(inout) :: json
     type(run_t), intent(in) :: run
     call json%open('{', 'scene')
-    call json%put(run%model%nodes, 'nodes')
+    call json%put(run%model%nodes - run%model%bodies, 'nodes')
     call json%put(run%model%elements, 'elements')
     call json%put(size(run%model%part), 'parts')
     call json%put(trim(run%model%controls%scheme), 'scheme')
@@ -242,7 +242,7 @@ contains
       call json%put(t%rows(row_edge), 'rows_edge')
       call json%put(t%rows(row_vertex), 'rows_vertex')
       call json%put(t%rows(row_second), 'rows_second')
-      call json%put(t%rows(row_wall), 'rows_wall')
+      call json%put(t%rows(row_wall) + t%rows(row_guided), 'rows_wall')
       call json%put(t%allowances, 'rows_with_allowance')
       call json%put(t%late_rows, 'late_rows')
       call json%put(t%new_frames, 'frames_redone')

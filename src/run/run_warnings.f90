@@ -8,6 +8,7 @@ module run_warnings
   use base_messages, only: messages_t, add_message, set_message
   use base_strings, only: to_text
   use deck_names, only: step_fixed
+  use model_data, only: node_name
   use run_data, only: run_t, warning_kinds, open_balance
   use run_progress, only: progress_t, clear_progress
   implicit none
@@ -93,8 +94,8 @@ contains
             ' for the motion as computed; first at '//since//': take a smaller step'
       case (wedging)
         text = to_text(tally%wedged)//' times friction was so large at a contact '// &
-            '(mu |W_nt| > W_nn) that several answers may exist; first at node '// &
-            to_text(run%model%node_id(tally%wedged_node))//', '//since// &
+            '(mu |W_nt| > W_nn) that several answers may exist; first at '// &
+            node_name(run%model, tally%wedged_node)//', '//since// &
             ': the motion may depend on the step, try others'
       case (rotation)
         text = rotation_text(run, since)

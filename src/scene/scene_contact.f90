@@ -7,13 +7,13 @@ module scene_contact
   use deck_heads, only: head_number
   use deck_names, only: overlaps, overlap_error, overlap_adjust, overlap_ramp
   use deck_problems, only: add_note, add_warning
-  use model_data, only: model_t, contact_card_t, wall_t, side_part_set, side_node_set, &
+  use model_data, only: model_t, contact_card_t, side_part_set, side_node_set, &
       side_part, side_segment_set, side_all_parts
-  use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
+  use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
   use scene_sharing, only: share_parts
   implicit none
   private
-  public :: read_contacts, read_walls
+  public :: read_contacts, id_before, merged
 
   character(40), parameter, public :: contact_keyword(3) = [character(40) :: &
       'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
@@ -241,50 +241,5 @@ contains
       end associate
     end do
   end subroutine warn_thickness
-
-  !> *RIGIDWALL_PLANAR; those without an id are numbered by their order.
-  subroutine read_walls(deck, model, maps)
-    type(deck_t), intent(inout) :: deck
-    type(model_t), intent(inout) :: model
-    type(maps_t), intent(in) :: maps
-    type(id_map_t) :: map
-    integer, allocatable :: record(:)
-    integer :: k
-    call records_of(deck, 'RIGIDWALL_PLANAR', 1, record)
-    allocate (model%wall(size(record)))
-    do k = 1, size(record)
-      associate (wall => model%wall(k), r => record(k))
-        wall%record = r
-        wall%id = id_before(deck, r, k)
-        wall%birth = deck%real(r, 'BIRTH')
-        wall%death = deck%real(r, 'DEATH')
-        if (deck%integer(r, 'NSID') > 0) wall%node_set = find_or_complain(deck, maps%node_set, &
-            r, 'NSID', deck%integer(r, 'NSID'), 'node set')
-        if (deck%follow(r, 2) > 0) call read_plane(deck, deck%follow(r, 2), model%wall(k))
-      end associate
-    end do
-    call make_id_map(deck, 'wall', 'NSID', model%wall%id, record, map)
-  end subroutine read_walls
-
-  subroutine read_plane(deck, record, wall)
-    type(deck_t), intent(inout) :: deck
-    integer, intent(in) :: record
-    type(wall_t), intent(inout) :: wall
-    real(wp), parameter :: no_sliding = 1.0e6_wp
-    real(wp) :: length
-    if (abs(deck%real(record, 'ZH') - deck%real(record, 'ZT')) > zero) call deck%complain( &
-        record, 'ZH', 'expected the value of ZT: the model is plane')
-    wall%point = [deck%real(record, 'XT'), deck%real(record, 'YT')]
-    wall%normal = [deck%real(record, 'XH'), deck%real(record, 'YH')] - wall%point
-    length = norm2(wall%normal)
-    if (.not. length > zero) then
-      call deck%complain(record, 'XH', 'expected a point H apart from T: the normal of the '// &
-          'wall points from T to H')
-      return
-    end if
-    wall%normal = wall%normal/length
-    wall%mu = deck%real(record, 'FRIC')
-    if (.not. wall%mu < 1.0_wp) wall%mu = no_sliding
-  end subroutine read_plane
 
 end module scene_contact

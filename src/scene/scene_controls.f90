@@ -4,6 +4,7 @@ module scene_controls
   use base_kinds, only: wp, zero, one
   use cone_types, only: cone_options_t, find_solver, local_solver
   use deck_data, only: deck_t
+  use deck_keywords_wall, only: wall_keyword
   use deck_problems, only: add_warning, add_problem, add_note
   use deck_reader, only: read_more
   use deck_schemes, only: scheme_traits_t, traits_of
@@ -278,7 +279,10 @@ contains
   pure logical function has_contact(deck)
     type(deck_t), intent(in) :: deck
     integer :: k
-    has_contact = deck%next('RIGIDWALL_PLANAR', 1, 0) > 0
+    has_contact = .false.
+    do k = 1, size(wall_keyword)
+      has_contact = has_contact .or. deck%next(trim(wall_keyword(k)), 1, 0) > 0
+    end do
     do k = 1, size(contact_keyword)
       has_contact = has_contact .or. deck%next(trim(contact_keyword(k)), 1, 0) > 0
     end do

@@ -8,7 +8,7 @@ module scene_model
   use deck_problems, only: full
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t
-  use scene_contact, only: read_contacts, read_walls
+  use scene_contact, only: read_contacts
   use scene_controls, only: read_controls, read_solver_options, note_keywords
   use scene_damping, only: read_damping
   use scene_ids, only: maps_t
@@ -20,6 +20,7 @@ module scene_model
   use scene_parts, only: read_materials, read_parts
   use scene_sets, only: read_sets
   use scene_explicit, only: find_step
+  use scene_walls, only: read_walls, add_bodies
   implicit none
   private
   public :: make_scene
@@ -58,6 +59,7 @@ contains
       call read_requests(deck, model, maps)
       call read_storage(deck, model, maps)
     end if
+    if (deck%problems%count == 0) call add_bodies(model)
     if (deck%problems%count > 0) call fail(status, status_deck, problem_count(deck)// &
         ' in the deck; nothing was computed')
   end subroutine make_scene

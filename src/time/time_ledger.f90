@@ -63,7 +63,7 @@ contains
     call find_owners(model, ledger)
     ledger%part_mass = zero
     do i = 1, model%nodes
-      if (ledger%owner(i) == 0) cycle
+      if (ledger%owner(i) <= 0) cycle
       ledger%part_mass(ledger%owner(i)) = ledger%part_mass(ledger%owner(i)) + system%lumped(i)
     end do
     do k = 1, size(ledger%share)
@@ -141,9 +141,26 @@ contains
     ledger%momentum = sum(ledger%part_momentum, dim=2)
     ledger%kinetic = sum(ledger%part_kinetic)
     ledger%internal = sum(ledger%part_internal)
+    if (model%bodies > 0) call add_walls(model, state, ledger)
     call balance(ledger)
     call watch_growth(ledger)
   end subroutine evaluate_ledger
+
+  !> Momentum and kinetic energy of rigid walls, which belong to no part.
+  pure subroutine add_walls(model, state, ledger)
+    type(model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    type(ledger_t), intent(inout) :: ledger
+    integer :: k
+    do k = 1, size(model%wall)
+      associate (i => model%wall(k)%node)
+        if (i == 0) cycle
+        ledger%momentum = ledger%momentum + ledger%mv(:, i)
+        ledger%kinetic = ledger%kinetic &
+            + half*(state%v(1, i)*ledger%mv(1, i) + state%v(2, i)*ledger%mv(2, i))
+      end associate
+    end do
+  end subroutine add_walls
 
   !> part_internal alone, at a state that has not been evaluated.
   subroutine find_strain_energies(model, system, state, ledger)

@@ -500,7 +500,7 @@ BLOCK_FAULTS = [
     ("undefined side", CONTACT, "        11        19"),
     ("undefined node set side", CONTACT, "       -91        12"),
     ("two cards on the same parts", "*END", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE\n" + CONTACT + "\n*END"),
-    ("frame that is not available", "*END", "*BIPACT_CONTACT\n\n                 MID\n*END"),
+    ("frame that is not available", "*END", "*BIPACT_CONTACT\n\n                 END\n*END"),
     ("tied contact", CONTACT + "\n", CONTACT + "\n\n                              1\n"),
     ("friction that rises", CONTACT, CONTACT + " " * 20 + "       0.1       0.3       1.0"),
     ("decay of friction", CONTACT, CONTACT + " " * 20 + "       0.3       0.1      -1.0"),
@@ -546,7 +546,93 @@ BLOCK_FAULTS = [
         "*END",
         "*RIGIDWALL_PLANAR\n\n       3.0                           0.0                           2.0\n*END",
     ),
-    ("moving wall", "*END", "*RIGIDWALL_PLANAR_MOVING\n\n       3.0\n*END"),
+    (
+        "moving wall without mass",
+        "*END",
+        "*RIGIDWALL_PLANAR_MOVING\n\n       3.0                           0.0\n*END",
+    ),
+    (
+        "moving wall of no mass",
+        "*END",
+        "*RIGIDWALL_PLANAR_MOVING\n\n       3.0                           0.0\n       0.0       1.0\n*END",
+    ),
+    (
+        "moving wall, WVEL",
+        "*END",
+        "*RIGIDWALL_PLANAR_MOVING\n\n       3.0                           0.0                                     1.0\n       1.0\n*END",
+    ),
+    (
+        "cylinder across the plane",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_CYLINDER\n\n       5.0       0.0       0.0       6.0       1.0       0.0\n       1.0\n*END",
+    ),
+    (
+        "cylinder without radius",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_CYLINDER\n\n       5.0       0.0       0.0       5.0       0.0       1.0\n\n*END",
+    ),
+    (
+        "cylinder of finite length",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_CYLINDER\n\n       5.0       0.0       0.0       5.0       0.0       1.0\n       1.0       2.0\n*END",
+    ),
+    (
+        "bowl around half a body",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_CYLINDER_INTERIOR\n\n       1.0       0.0       0.0       1.0       0.0       1.0\n      1.01\n*END",
+    ),
+    (
+        "flat wall that leans",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT\n\n       3.0                           0.0\n       3.5       1.0       0.0       2.0\n*END",
+    ),
+    (
+        "flat wall whose end is its start",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT\n\n       3.0                           0.0\n       3.0       0.0       0.0       2.0\n*END",
+    ),
+    (
+        "flat wall out of the plane",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT\n\n       3.0                           0.0\n       3.0       1.0       1.0       2.0\n*END",
+    ),
+    (
+        "flat wall along z",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT\n\n       3.0                           0.0\n                                               2.0\n*END",
+    ),
+    (
+        "moved wall without curve",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT_MOTION\n\n       3.0                           0.0\n       0.0\n        77         0       1.0\n*END",
+    ),
+    (
+        "moved wall without direction",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT_MOTION\n\n       3.0                           0.0\n       0.0\n         1         0\n*DEFINE_CURVE\n1,\n0.0,0.0\n1.0,1.0\n*END",
+    ),
+    (
+        "moved wall that starts elsewhere",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT_MOTION\n\n       3.0                           0.0\n       0.0\n         1         1       1.0\n*DEFINE_CURVE\n1,\n0.0,0.5\n1.0,1.0\n*END",
+    ),
+    (
+        "wall moved by its acceleration",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT_MOTION\n\n       3.0                           0.0\n       0.0\n         1         2       1.0\n*DEFINE_CURVE\n1,\n0.0,0.0\n1.0,1.0\n*END",
+    ),
+    (
+        "wall with two numbers",
+        "*END",
+        "*RIGIDWALL_GEOMETRIC_FLAT_ID\n         3\n\n       3.0                           0.0\n\n*RIGIDWALL_PLANAR_ID\n         3\n\n       3.0                           0.0\n*END",
+    ),
+    (
+        "moving wall in statics",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1\n",
+        "*CONTROL_IMPLICIT_DYNAMICS\n         1                         0.005\n",
+        "*END",
+        "*RIGIDWALL_PLANAR_MOVING\n\n       3.0                           0.0\n       1.0\n*END",
+    ),
     ("surface of no part set", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE\n        19\n*END"),
     (
         "corner of a body in another",

@@ -18,6 +18,7 @@ for folder in ("support", "decks"):
     sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", folder))
 import contact_geometry as geometry
 import scenes
+import walls
 from full_disk import on_small_disk, one_message, starved
 import stick_slip
 from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, show
@@ -185,6 +186,23 @@ def contact():
         check((force > 0.0).any(), name + ": it touches")
         go_on_from_each(name, deck, folder, contents(folder))
     short_purse()
+
+
+def rigid_walls():
+    """The same at walls of every shape, at rest and moving, with friction: schemes on positions and
+    velocities, of one stage and two, with both ends of a step; steps cut at a touch."""
+    cuts = "*BIPACT_STEP\nEVENT,\n"
+    others = ("NEWMARK,", ""), ("MOREAU,0.5", ""), ("PAOLI,", ""), ("NSGENALPHA,", "")
+    for number, kind in enumerate(walls.KINDS):
+        for scheme, cards in (("THETA,0.5", cuts * (number % 2)), others[number % 4]):
+            block, text = walls.thrown(kind, scheme, steps=400)
+            text = with_cards(text, RESTART % (63, "", 9) + EVERY_FIELD % (41 * block.dt) + cards)
+            name = "%s %s%s" % (kind, scheme.split(",")[0], " cut" if cards else "")
+            deck, folder = write_deck(name.replace(" ", "-"), text), os.path.join(TMP, "walls")
+            code, errors, _ = bipact(deck, folder, "--quiet")
+            check(code == 0, "%s: %s" % (name, errors))
+            whole = contents(folder)
+            go_on_from_each(name, deck, folder, whole)
 
 
 def steps():

@@ -403,7 +403,7 @@ add(
     elements=[("INCLUDE", ["mesh.key"]), ("INCLUDE_TRANSFORM", ["more.key"])],
 )
 add(
-    "banners: a moving wall", "refused", banners, more=("RIGIDWALL_PLANAR_MOVING", ["", " 1.0"])
+    "banners: a wall with ribs", "refused", banners, more=("RIGIDWALL_PLANAR_ORTHO", ["", " 1.0"])
 )
 add(
     "banners: a missing include",
