@@ -33,6 +33,7 @@ module contact_node
     type(place_t), allocatable :: place(:)
     integer :: places = 0
     integer :: repeated = 0              !< of them those of the last step, but for their gaps
+    real(wp) :: reach = zero             !< they are no farther than this [L]
     logical :: is_measured = .false.     !< true gaps are those of the end of this step
   contains
     procedure :: list => node_list
@@ -158,6 +159,7 @@ contains
     if (this%listed == 0) return
     view = near_view(this)
     view%reach = view%reach + 2.0_wp*relative_motion(this, free)
+    this%reach = view%reach
     n_first = 0
     do s = 1, watched_sides(this)
       call find_side(this, model, s, u, free, view)

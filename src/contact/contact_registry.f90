@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The pairings by name: a new one is a file and its two lines here.
 module contact_registry
+  use contact_mortar, only: pairing_mortar_t
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
   use contact_wall, only: pairing_wall_t
@@ -17,6 +18,8 @@ contains
     select case (name)
     case ('NODE')
       allocate (pairing_node_t :: pairing)
+    case ('MORTAR')
+      allocate (pairing_mortar_t :: pairing)
     case ('WALL')
       allocate (pairing_wall_t :: pairing)
     end select

@@ -62,7 +62,7 @@ module contact_types
     integer, allocatable :: row_of(:)             !< (n)
     type(delassus_dense_t) :: w
     real(wp), allocatable :: q(:, :), mu(:), r(:, :)
-    !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
+    !> (*, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]

@@ -8,7 +8,7 @@ module run_report
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
-  use contact_rows, only: row_edge, row_vertex, row_second, row_wall
+  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_mortar
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
   use deck_names, only: step_fixed
@@ -138,7 +138,9 @@ contains
     associate (t => contact%tally)
       line = 'rows in contact solves: edge '//to_text(t%rows(row_edge))//', vertex '// &
           to_text(t%rows(row_vertex))//', second '//to_text(t%rows(row_second))//', wall '// &
-          to_text(t%rows(row_wall))//'; of them with an allowance '//to_text(t%allowances)
+          to_text(t%rows(row_wall))
+      if (t%rows(row_mortar) > 0) line = line//', mortar '//to_text(t%rows(row_mortar))
+      line = line//'; of them with an allowance '//to_text(t%allowances)
       write (unit, '(a)') line
       write (unit, '(a)') '  late rows '//to_text(t%late_rows)//', frames redone '// &
           to_text(t%new_frames)//', repeats for the purse '//to_text(t%repeats)// &
