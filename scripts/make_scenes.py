@@ -11,6 +11,7 @@
     block          a block thrown obliquely at a rigid plane: its foot slips and sticks
     disc           a disc thrown obliquely at a rigid plane: contact that grows, as of Hertz
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
+    patch, hertz, cylinder, westergaard, punch, rod    static contact: see contact_scenes.py
 
 Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
 rest, rhoinf, rule, pbeta, gamma, beta, alpha), mass, redist, output, angle (turns it, degrees),
@@ -25,21 +26,8 @@ import math
 import startup  # noqa: F401  before what is no part of Python
 
 from cards import SCHEME, scheme_cards
-
-
-def turned(o, x, y):
-    """A vector of the scene as it is placed: mirrored, then turned."""
-    if o["mirror"]:
-        y = -y
-    quarter, rest = divmod(o["angle"], 90.0)
-    for _ in range(int(quarter) % 4):
-        x, y = -y, x
-    a = math.radians(rest)
-    return (
-        (x, y)
-        if rest == 0.0
-        else (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a))
-    )
+import contact_scenes
+from placed import turned
 
 
 def grid(o, x0, y0, width, height, nx, ny, part, node, element):
@@ -498,6 +486,7 @@ SCENES = {
     f.__name__: f
     for f in (wall, bouncing, sliding, incline, pushed, chain, oblique, block, disc, drift)
 }
+SCENES.update(contact_scenes.SCENES)
 
 
 def write(path, scene, **options):

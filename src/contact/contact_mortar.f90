@@ -8,7 +8,7 @@ module contact_mortar
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero
   use contact_mortar_cover, only: cover_t, list_pairs, find_cover
-  use contact_mortar_rows, only: mortar_work_t, add_mortar_row, size_mortar_work, mortar_width
+  use contact_mortar_rows, only: mortar_work_t, add_mortar_row, size_mortar_work, covered_width
   use contact_node, only: pairing_node_t
   use contact_rows, only: rows_t, start_rows, copy_row, comes_before
   use model_data, only: model_t
@@ -113,7 +113,7 @@ contains
     end do
   end subroutine mortar_append_rows
 
-  !> The area that carries the force on a node is that of its multiplier.
+  !> The force on a node is that of its shape function, over what its multipliers cover.
   subroutine mortar_weigh_nodes(this, model, area)
     class(pairing_mortar_t), intent(in) :: this
     type(model_t), intent(in) :: model
@@ -123,7 +123,7 @@ contains
     if (.not. allocated(this%cover%first)) return
     associate (c => this%multiplier_side, own => this%side(this%multiplier_side))
       do k = 1, size(own%node)
-        width = mortar_width(own, this%cover, k)
+        width = covered_width(own, this%cover, k)
         if (width > zero) area(this%nodal%first(c) + k) = &
             width*model%part(own%part(maxval(own%node_edge(:, k))))%thickness
       end do

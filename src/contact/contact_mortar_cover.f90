@@ -72,6 +72,7 @@ contains
     allocate (cover%low(n), cover%high(n), cover%at(2, n), cover%normal(2, edges))
     allocate (cover%length(edges), cover%centre(edges), cover%moment(edges))
     cover%length = zero
+    cover%centre = zero
   end subroutine list_pairs
 
   !> Counts the pairs of each edge of the contactor that the list of one side makes, and puts

@@ -32,7 +32,7 @@ module contact_mortar_rows
   !> as what is covered.
   real(wp), parameter :: narrow = 0.1_wp
 
-  public :: add_mortar_row, size_mortar_work, mortar_width
+  public :: add_mortar_row, size_mortar_work, covered_width
 
 contains
 
@@ -160,17 +160,20 @@ contains
     work%weight(work%n) = weight
   end subroutine add_point
 
-  !> Width of the multiplier of row k of the nodes of the contactor [L].
-  pure real(wp) function mortar_width(own, cover, k)
+  !> Integral of the shape function of row k of the nodes of the contactor over what is covered
+  !> [L]: the force on the node under unit pressure.
+  pure real(wp) function covered_width(own, cover, k)
     type(surface_t), intent(in) :: own
     type(cover_t), intent(in) :: cover
     integer, intent(in) :: k
     integer :: s
-    mortar_width = zero
+    covered_width = zero
     do s = 1, 2
-      if (own%node_edge(s, k) > 0) mortar_width = mortar_width &
-          + width_on_edge(own, cover, own%node_edge(s, k), 3 - s)
+      associate (e => own%node_edge(s, k))
+        if (e > 0) covered_width = covered_width &
+            + cover%length(e)*own%length(e)*(one - abs(cover%centre(e) - (2 - s)))
+      end associate
     end do
-  end function mortar_width
+  end function covered_width
 
 end module contact_mortar_rows
