@@ -48,7 +48,7 @@ def static_deck(o, title, blocks, cards, steps, pair):
     out += ["*CONTROL_IMPLICIT_GENERAL", "1,%r" % (o["dt"] or 1.0)]
     out += ["*CONTROL_IMPLICIT_DYNAMICS", "0,"]
     # Residuals of the passes and of contact add up to the error of an exact answer.
-    out += ["*BIPACT_CONTACT", ",%r" % (o["tol"] or 1.0e-13), "*BIPACT_STATIC", ",,1.0e-13"]
+    out += ["*BIPACT_CONTACT", ",%r" % (o["tol"] or 1.0e-13), "*BIPACT_STATIC", ",,1.0e-15"]
     out += ["*NODE"]
     for b in blocks:
         out += ["%d,%r,%r" % ((n,) + turned(o, *p)) for n, p in b.place.items()]
@@ -167,6 +167,7 @@ def patch(o, upper=5, lower=3, low=0.0, high=1.0, slope=0.0, mu=0.3, pairing="MO
     text = static_deck(o, "patch test of contact", (base, top), cards, 1,
                        {"mu": mu, "side": side, "pairing": pairing})
     return text, {"dt": 1.0, "tend": 1.0, "exact": exact, "pressure": pressure, "shear": shear,
+                  "normal": turned(o, *normal),
                   "faces": (top.row(0), base.row(-1))}
 
 

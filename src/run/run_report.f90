@@ -135,6 +135,13 @@ contains
     type(totals_t), intent(in) :: totals
     integer, intent(in) :: unit
     character(:), allocatable :: line
+    integer :: p
+    do p = 1, size(contact%pairing)
+      associate (item => contact%pairing(p)%item)
+        if (item%multiplier_side > 0) write (unit, '(a)') 'mortar of contact '// &
+            to_text(item%id)//': multipliers on '//side_name(item%multiplier_side)
+      end associate
+    end do
     associate (t => contact%tally)
       line = 'rows in contact solves: edge '//to_text(t%rows(row_edge))//', vertex '// &
           to_text(t%rows(row_vertex))//', second '//to_text(t%rows(row_second))//', wall '// &
@@ -148,6 +155,12 @@ contains
           ', steps that outran a list '//to_text(t%redone)
     end associate
   end subroutine write_rows_by_kind
+
+  pure function side_name(side) result(name)
+    integer, intent(in) :: side
+    character(5) :: name
+    name = merge('SURFA', 'SURFB', side == 1)
+  end function side_name
 
   !> The largest resident memory; "unknown" where the system does not tell it.
   pure function memory_text(totals) result(text)
