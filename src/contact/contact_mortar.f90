@@ -44,7 +44,8 @@ contains
   subroutine list_edges(this)
     type(pairing_mortar_t), intent(inout) :: this
     associate (c => this%multiplier_side)
-      call list_pairs(this%side(c), this%side(3 - c), this%near(c), this%near(3 - c), this%cover)
+      call list_pairs(this%side(c), this%side(3 - c), this%near(c), this%near(3 - c), &
+          this%cover)
     end associate
     call size_mortar_work(this%cover, this%work)
     call start_rows(this%made)

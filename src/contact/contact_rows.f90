@@ -13,7 +13,8 @@ module contact_rows
   type, public :: rows_t
     integer :: n = 0
     integer :: most_points = 3             !< of a row, so far
-    !> (4, n) pairing, side of the contactor node, the node, edge (< 0: vertex; 0: wall, mortar)
+    !> (4, n) pairing, side of the contactor node, the node, edge (< 0: vertex; 0: of a wall or
+    !> of a mortar)
     integer, allocatable :: key(:, :)
     integer, allocatable :: kind(:)        !< row_...
     integer, allocatable :: first(:)       !< (n + 1) first point of a row
@@ -45,9 +46,9 @@ module contact_rows
   integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
       row_mortar = 5, row_kinds = 5
 
-  public :: start_rows, size_points, add_row, renew_gap, copy_row, copy_rows, swap_rows, same_geometry, &
-      carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, &
-      row_force, add_row_force, row_of_h
+  public :: start_rows, size_points, add_row, renew_gap, copy_row, copy_rows, swap_rows, &
+      same_geometry, carry_reactions, take_reactions, comes_before, find_slots, &
+      relative_displacement, row_force, add_row_force, row_of_h
 
 contains
 

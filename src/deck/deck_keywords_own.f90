@@ -93,8 +93,7 @@ contains
     call add_card(table)
     call add_field(table, 'CID', 'I10 req >0', 'contact: its id, or its number in the deck')
     call add_field(table, 'SIDE', 'W10 =AUTO |AUTO|A|B|BOTH|', &
-        'whose nodes are exact: A, B, both, or AUTO: of the locally finer side; MORTAR: whose '// &
-        'nodes carry the multipliers, AUTO: corners, then longer edges')
+        'whose nodes are exact, AUTO: of the locally finer side; MORTAR: who has multipliers')
     call add_field(table, 'ATYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFA is')
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
     call add_field(table, 'REST', 'R10 >=0 <=1', &

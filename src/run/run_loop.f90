@@ -404,8 +404,8 @@ contains
     if (failed(status)) call add_place(status, moment(run))
   end subroutine check_overlap
 
-  !> Does the energy balance close, does energy grow? Not asked at t = 0: dynamics begins with its
-  !> energies there, statics has round-off for energies.
+  !> Does the energy balance close, does energy grow? Not asked at t = 0: dynamics begins with
+  !> its energies there, statics has round-off for energies.
   subroutine watch_energy(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status

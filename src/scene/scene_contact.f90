@@ -42,7 +42,8 @@ contains
     call read_pairs(deck, model, maps, pair)
     do k = 1, size(record)
       call find_sides(deck, model, maps, pair(k), model%contact(k))
-      if (model%contact(k)%pairing == 'MORTAR') call check_mortar(deck, pair(k), model%contact(k))
+      if (model%contact(k)%pairing == 'MORTAR') &
+          call check_mortar(deck, pair(k), model%contact(k))
     end do
     if (deck%problems%count == 0) call share_parts(deck, model)
     call warn_thickness(deck, model)
@@ -181,8 +182,8 @@ contains
     type(contact_card_t), intent(in) :: card
     character(*), parameter :: instead = 'take PAIRING NODE'
     if (card%contactor == 3) then
-      call deck%complain(pair, 'SIDE', 'MORTAR has multipliers on one side: expected A, B or '// &
-          'AUTO', instead//' where both sides are to have exact nodes')
+      call deck%complain(pair, 'SIDE', 'MORTAR has multipliers on one side: expected A, B '// &
+          'or AUTO', instead//' where both sides are to have exact nodes')
     else if (card%is_self) then
       call deck%complain(pair, 'PAIRING', 'MORTAR needs two surfaces; this contact is of one', &
           instead)
