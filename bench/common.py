@@ -62,9 +62,9 @@ def read_log(folder):
                     found[key] = int(match.group(1))
             if line.startswith("WARNING "):
                 found.setdefault("warnings", []).append(line[8:].strip())
-            match = re.search(r"gave the bodies (\S+)", line)
+            match = re.search(r"closing overlaps gave back (\S+)", line)
             if match:
-                found["corrections"] = float(match.group(1))
+                found["corrections"] = found.get("corrections", 0.0) + float(match.group(1))
             match = re.search(r"worst error (\S+), eta (\S+),.*certificate (.*)", line)
             if match:
                 found["certificate"] = match.group(3).strip()

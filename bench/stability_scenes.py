@@ -147,4 +147,11 @@ def bouncing(path, scheme, o):
     return {"meta": meta, "exact": False, "bound": 0.0, "mu": 0.0, "way": way}
 
 
-SCENES = {f.__name__: f for f in (bars, wall, block, oblique, drift, bouncing)}
+def mortar(path, scheme, o):
+    """The two bars, 3 elements against 5 across, paired by a mortar: its nodes have an allowance
+    of 5e-3 of the shorter edge, 1/5, and get a row at 1.5 times that."""
+    data = bars(path, dict(scheme, pairing="MORTAR", ny=3, ny2=5), o)
+    return dict(data, sink=1.5 * 5.0e-3 / 5.0)
+
+
+SCENES = {f.__name__: f for f in (bars, wall, block, oblique, drift, bouncing, mortar)}

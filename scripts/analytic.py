@@ -12,6 +12,7 @@ Graff 1975, Wave Motion in Elastic Solids; Goldsmith 1960, Impact).
     TwoBars         closed form: two identical bars at +v0 and -v0, or one bar on a rigid wall
     Impact          any two bars, by characteristics: force, displacements, energies, fields
     Oblique         two layers, half spaces or a wall: plane P and S waves, stick or slip
+    Hertz, Westergaard, punch_force: pressure of bodies that are pressed together
     unequal_lengths, staircase, interface, touch_time: closed forms
     mass_on_rod     a rigid mass that strikes a rod
     GlidingBlock    a block on its two lower corners in a smooth bowl
@@ -677,6 +678,68 @@ class Belt:
     def belt_work(self, t):
         """mu m g times the way of the belt [F L]."""
         return self.mu * self.mass * self.gravity * self.speed * np.minimum(t, self.catch)
+
+
+# ---------------------------------------------------------------- static contact
+
+
+@dataclass(frozen=True)
+class Hertz:
+    """Two cylinders in plane strain (Hertz 1882; Johnson 1985, Contact Mechanics, 4.2 and 7.2):
+    1/R = 1/R1 + 1/R2, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, load P per length."""
+
+    radius: float  # R [L]
+    modulus: float  # E* [F L-2]
+    load: float  # P [F L-1]
+
+    @property
+    def half_width(self):
+        """b = 2 sqrt(P R/(pi E*)) [L]"""
+        return 2.0 * np.sqrt(self.load * self.radius / (np.pi * self.modulus))
+
+    @property
+    def largest(self):
+        """p0 = 2 P/(pi b) [F L-2]"""
+        return 2.0 * self.load / (np.pi * self.half_width)
+
+    def pressure(self, x):
+        """p0 sqrt(1 - x^2/b^2)"""
+        return self.largest * np.sqrt(np.maximum(0.0, 1.0 - (x / self.half_width) ** 2))
+
+    def shear(self, x, mu, force):
+        """Of bodies with equal constants under a tangential force Q < mu P per length (Cattaneo
+        1938, Mindlin 1949): mu p less the same ellipse on the part c that sticks, c/b =
+        sqrt(1 - Q/(mu P)), times c/b."""
+        share = np.sqrt(1.0 - force / (mu * self.load))
+        stick = share * self.half_width
+        inner = np.sqrt(np.maximum(0.0, 1.0 - (x / stick) ** 2))
+        return mu * (self.pressure(x) - share * self.largest * inner)
+
+
+@dataclass(frozen=True)
+class Westergaard:
+    """A wave of amplitude D and length l pressed on a flat face by a mean pressure below that of
+    full contact, p* = pi E* D/l, D half of its height (Westergaard 1939; Johnson 1985, 13.2)."""
+
+    wave: float  # l [L]
+    full: float  # p* [F L-2]
+    mean: float  # [F L-2]
+
+    @property
+    def half_width(self):
+        """a: sin^2(pi a/l) = mean/p* [L]"""
+        return self.wave / np.pi * np.arcsin(np.sqrt(self.mean / self.full))
+
+    def pressure(self, x):
+        """2 p* cos(pi x/l) sqrt(sin^2(pi a/l) - sin^2(pi x/l))"""
+        inner = self.mean / self.full - np.sin(np.pi * x / self.wave) ** 2
+        return 2.0 * self.full * np.cos(np.pi * x / self.wave) * np.sqrt(np.maximum(0.0, inner))
+
+
+def punch_force(load, share):
+    """Force [F L-1] on |x| < share a of a flat punch without friction, p = P/(pi sqrt(a^2 - x^2))
+    (Sadowsky 1928): 2 P asin(share)/pi."""
+    return 2.0 * load * np.arcsin(share) / np.pi
 
 
 # ---------------------------------------------------------------- command line

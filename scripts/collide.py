@@ -259,7 +259,7 @@ def work(task):
     """One run: its line of results."""
     number, a = task
     start = time.time()
-    scene = scenes.draw(a.seed, number, a.single)
+    scene = scenes.draw(a.seed, number, a.single, a.mortar)
     result = {"seed": a.seed, "number": number, "stamp": a.stamp}
     result.update({name: scene[name] for name in NAMES})
     result["bodies"] = len(scene["bodies"])
@@ -294,7 +294,7 @@ def keep_decks(folder, name):
 
 def stamp_of(a):
     """Changes with the program, the scenes, the judge and the options."""
-    digest = hashlib.sha256(repr((a.single, a.symmetry)).encode())
+    digest = hashlib.sha256(repr((a.single, a.symmetry, a.mortar)).encode())
     here = os.path.dirname(os.path.abspath(__file__))
     names = ["collide"] + ["collide_" + n for n in ("deck", "judge", "mesh", "scenes")]
     for path in [a.bipact] + [os.path.join(here, n + ".py") for n in names]:
@@ -347,6 +347,7 @@ def arguments():
     add("--only", type=int, metavar="NUMBER", help="this run alone, with all its figures")
     add("--jobs", type=int, default=os.cpu_count() or 1)
     add("--single", action="store_true", help="some scenes with one contact of all bodies")
+    add("--mortar", action="store_true", help="half of the pairs of bodies are mortars")
     add("--no-symmetry", dest="symmetry", action="store_false", help="leave the twins out")
     add("--symmetry", action="store_true", default=True, help="with the twins (default)")
     add("--keep", metavar="DIR", help="decks of failed runs (OUT/failed)")

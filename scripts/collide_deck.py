@@ -99,9 +99,11 @@ def contacts(scene):
             ids = range(1, len(scene["bodies"]) + 1)
             out += ["*SET_PART_LIST", "10,"] + in_eights(ids)
     else:
-        for a, b in scene["pairs"]:
+        for k, (a, b) in enumerate(scene["pairs"], 1):
             out += ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE"]
             out += ["%d,%d,,,%s" % (11 + a, 11 + b, mu)]
+            if frozenset((a, b)) in scene["mortars"]:
+                out += ["*BIPACT_PAIR", "%d,,,,,MORTAR" % k]
     if scene["wall"]:
         point, normal, friction = scene["wall"]
         at = ",".join(map(number, point))

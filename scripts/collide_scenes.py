@@ -322,7 +322,7 @@ def inner_corner(rng, across):
 KINDS = {"thrown": thrown, "stacked": stacked, "wedged": wedged}
 
 
-def draw(seed, number, single=False):
+def draw(seed, number, single=False, mortar=False):
     """The scene of a number."""
     rng = np.random.default_rng([seed, number])
     kind = str(rng.choice(sorted(KINDS)))
@@ -340,6 +340,8 @@ def draw(seed, number, single=False):
     scene["single"] = card if single else ""
     last = len(scene["bodies"])
     scene["pairs"] = [(a, b) for a in range(last) for b in range(a + 1, last)]
+    other = np.random.default_rng([seed, number, 1])  # the scenes are those without mortars
+    scene["mortars"] = {frozenset(p) for p in scene["pairs"] if mortar and other.random() < 0.5}
     number_nodes(scene)
     angle = rng.choice([0.0, rng.uniform(0.0, 6.283)])
     return transformed(scene, turn(angle)) if angle else scene
@@ -399,6 +401,7 @@ def swapped(scene):
     new["order"] = [(last - k, e) for k, e in scene["order"]]
     new["pairs"] = [(last - b, last - a) for a, b in scene["pairs"]][::-1]
     new["pairs"] = [(b, a) for a, b in new["pairs"]]
+    new["mortars"] = {frozenset(last - k for k in p) for p in scene["mortars"]}
     return new
 
 

@@ -61,7 +61,7 @@ put 644 "$completions" "$scratch/bipact" "$scratch/bipact-fclib"
 # Scripts that work on the sources stay with them.
 for script in scripts/*.py scripts/setup-venv.sh scripts/setup-gmsh.sh; do
   case ${script##*/} in
-    check_style.py | collide*.py | draw_rows.py | make_cards.py) continue ;;
+    check_style.py | collide*.py | draw_*.py | make_cards.py) continue ;;
   esac
   mode=644
   [ ! -x "$script" ] || mode=755

@@ -61,6 +61,8 @@ DEFAULTS = dict(
     v1=None,
     v2=None,
     mu=0.0,
+    pairing=None,
+    side=None,
     courant=None,
     dt=None,
     tend=None,
@@ -491,7 +493,11 @@ def contact_lines(o):
         mu,
         mu
     )
-    return out + [names(TEN, *"tbirth tdeath soa sob nda ndb cof init".split()), ""]
+    out += [names(TEN, *"tbirth tdeath soa sob nda ndb cof init".split()), ""]
+    if o.pairing or o.side:
+        fields = 1, o.side, None, None, None, o.pairing
+        out += block("*BIPACT_PAIR", "cid side atyp btyp rest pairing", *fields)
+    return out
 
 
 def interval(o, given):
@@ -690,6 +696,8 @@ def add_scene_options(add):
     add("--v1", type=float, help="velocity of bar 1 instead of +v0")
     add("--v2", type=float, help="velocity of bar 2 instead of -v0")
     add("--mu", type=float, help="friction coefficient (0)")
+    add("--pairing", choices=("NODE", "MORTAR"), help="rows of contact (NODE)")
+    add("--side", choices=("AUTO", "A", "B", "BOTH"), help="SIDE of *BIPACT_PAIR (AUTO)")
 
 
 def add_time_options(add):

@@ -14,6 +14,7 @@
     mass_on_rod    a rigid wall with a mass strikes a rod that is held at its other end
     bowl           a stiff block that swings on its two lower corners in a smooth bowl
     belt           a block set down on a belt that runs
+    patch, hertz, cylinder, westergaard, punch, rod    static contact: see contact_scenes.py
 
 Every scene takes n (elements along), dt or courant, scheme and the fields of its cards (theta, xi,
 rest, rhoinf, rule, pbeta, gamma, beta, alpha), mass, redist, output, angle (turns it, degrees),
@@ -28,21 +29,8 @@ import math
 import startup  # noqa: F401  before what is no part of Python
 
 from cards import SCHEME, scheme_cards
-
-
-def turned(o, x, y):
-    """A vector of the scene as it is placed: mirrored, then turned."""
-    if o["mirror"]:
-        y = -y
-    quarter, rest = divmod(o["angle"], 90.0)
-    for _ in range(int(quarter) % 4):
-        x, y = -y, x
-    a = math.radians(rest)
-    return (
-        (x, y)
-        if rest == 0.0
-        else (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a))
-    )
+import contact_scenes
+from placed import turned
 
 
 def grid(o, x0, y0, width, height, nx, ny, part, node, element):
@@ -604,6 +592,7 @@ SCENES = {
         belt,
     )
 }
+SCENES.update(contact_scenes.SCENES)
 
 
 def write(path, scene, **options):

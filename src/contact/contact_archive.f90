@@ -7,7 +7,7 @@ module contact_archive
   use cone_types, only: certificate_t
   use contact_condense, only: size_schur_inverse
   use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
-  use contact_rows, only: rows_t, start_rows, row_kinds
+  use contact_rows, only: rows_t, start_rows, size_points, row_kinds
   use contact_types, only: contact_t, tally_t
   use contact_work, only: find_nodal
   implicit none
@@ -89,6 +89,8 @@ contains
     if (archive%mode == archive_restore) rows%is_active(:n) = .true.
     call archive%exchange('rows.first', rows%first(:n + 1))
     points = rows%first(n + 1) - 1
+    if (archive%mode == archive_restore) call size_points(rows, points)
+    rows%most_points = max(rows%most_points, maxval(rows%first(2:n + 1) - rows%first(:n)))
     call archive%exchange('rows.point', rows%point(:points))
     call archive%exchange('rows.weight', rows%weight(:points))
     call archive%exchange('rows.pairing', rows%key(1, :n))

@@ -74,6 +74,7 @@ contains
       call cover_side(model, pairing%side(s), pairing%side(t), u, pairing%is_wall, &
           pairing%nodal%first(s), pairing%nodal)
     end do
+    call pairing%weigh_nodes(model, pairing%nodal%area)
   end subroutine find_areas
 
   !> The areas of the nodes of a side, after the first ones of both sides.

@@ -13,9 +13,6 @@ module contact_condense
   public :: interface_outgrown, make_interface, size_schur_inverse, constrain_interface, &
       clear_constrained, build_w
 
-  !> Dofs of a row: three nodes.
-  integer, parameter :: most_dofs = 6
-
 contains
 
   !> True when a row involves a node that is not among the interface nodes.
@@ -122,8 +119,8 @@ contains
   pure subroutine mark_rigid(schur_inverse, rows)
     real(wp), intent(in) :: schur_inverse(:, :)
     type(rows_t), intent(inout) :: rows
-    real(wp) :: scale, normal, weight(most_dofs)
-    integer :: a, i, j, k, n, dof(most_dofs)
+    real(wp) :: scale, normal, weight(2*rows%most_points)
+    integer :: a, i, j, k, n, dof(2*rows%most_points)
     scale = zero
     do i = 1, size(schur_inverse, 1)
       scale = max(scale, schur_inverse(i, i))
@@ -144,8 +141,11 @@ contains
   subroutine size_problem(contact, n)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n
-    integer :: rows
-    if (contact%n == n .and. allocated(contact%w%matrix)) return
+    integer :: rows, dofs
+    dofs = 2*contact%rows%most_points
+    if (contact%n == n .and. allocated(contact%w%matrix)) then
+      if (size(contact%h_dof, 1) >= dofs) return
+    end if
     contact%n = n
     call contact%w%resize(contact%d, n)
     if (allocated(contact%q)) deallocate (contact%q, contact%mu, contact%r, contact%row_of, &
@@ -158,7 +158,7 @@ contains
       allocate (contact%mu_law(n), contact%mu_bound(2, n), contact%mu_memory)
     end if
     allocate (contact%r(contact%d, n), contact%row_of(n))
-    allocate (contact%h_dof(most_dofs, rows), contact%h_weight(most_dofs, rows))
+    allocate (contact%h_dof(dofs, rows), contact%h_weight(dofs, rows))
     allocate (contact%h_size(rows))
   end subroutine size_problem
 

@@ -6,7 +6,7 @@ module contact_emit
   use contact_grade, only: points_of_place
   use contact_pairing, only: late_t
   use contact_places, only: place_t
-  use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second
+  use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second, row_mortar
   use contact_surface, only: surface_t
   implicit none
   private
@@ -66,6 +66,7 @@ contains
     nearest = cos(smooth_angle)
     do a = 1, rows%n
       if (any(rows%key(1:3, a) /= [number, place%side, place%node])) cycle
+      if (rows%kind(a) == row_mortar) cycle
       if (dot_product(rows%normal(:, a), place%normal) < nearest) cycle
       nearest = dot_product(rows%normal(:, a), place%normal)
       found = a

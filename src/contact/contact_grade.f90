@@ -12,6 +12,8 @@ module contact_grade
   public :: grade_place, settle_twins, points_of_place
 
   integer, parameter, public :: finer_auto = 0, finer_both = 3   !< 1, 2: that side
+  !> Faces that lie on each other are kept apart by multipliers, not by their nodes.
+  integer, parameter, public :: finer_none = 4
 
   real(wp), parameter :: equal_size = 1.0e-6_wp
   !> A face that lies on another: 3 degrees.
@@ -19,6 +21,9 @@ module contact_grade
   real(wp), parameter :: cosine_of_smooth = cos(smooth_angle)
   real(wp), parameter :: twin = 0.1_wp             !< edges: a node that meets a node
   real(wp), parameter :: sharper = 1.0_wp*degree
+  !> What a node between faces that multipliers keep apart may sink, / shorter edge: half of
+  !> what is warned of. A chord is that deep in a circle where it turns by 2.3 degrees.
+  real(wp), parameter :: share_between = 5.0e-3_wp
 
 contains
 
@@ -31,6 +36,9 @@ contains
     type(place_t), intent(inout) :: place
     if (finer == finer_both .or. .not. place%own_size > zero) then
       place%is_exact = .true.
+    else if (finer == finer_none) then
+      call grade_between_faces(own, k, cone, place)
+      return
     else if (finer /= finer_auto) then
       place%is_exact = place%side == finer
     else if (abs(place%own_size - place%length) <= equal_size*place%length) then
@@ -41,6 +49,24 @@ contains
     if (place%is_exact .or. .not. own%turn(k) > corner) return
     place%is_exact = .not. lies_flat(own, k, place, cone)
   end subroutine grade_place
+
+  !> A corner is exact unless one of its faces lies on the edge, as multipliers see it; there,
+  !> and of all other nodes, they have the gap, and the node an allowance.
+  pure subroutine grade_between_faces(own, k, cone, place)
+    type(surface_t), intent(in) :: own
+    integer, intent(in) :: k
+    type(cone_of_node_t), intent(in) :: cone
+    type(place_t), intent(inout) :: place
+    integer :: s
+    logical :: lies_on
+    lies_on = .false.
+    do s = 1, 2
+      lies_on = lies_on .or. &
+          -dot_product(cone%normal(:, s), place%normal) >= cosine_of_smooth
+    end do
+    place%is_exact = own%turn(k) > corner .and. .not. lies_on
+    if (lies_on) place%allowance = share_between*min(place%own_size, place%length)
+  end subroutine grade_between_faces
 
   !> Of equal sizes SURFA is exact; within one surface the part of lower id; within one part
   !> both, so that the numbers of nodes decide nothing.

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The pairing NODE: nodes of both sides are watched against the edges of the other. Within
-!> one surface of several bodies (single surface) every node is watched against all other
-!> edges.
+!> The pairing NODE: nodes of both sides are watched against the edges of the other, within a
+!> single surface of several bodies against all other edges.
 module contact_node
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
@@ -34,6 +33,7 @@ module contact_node
     type(place_t), allocatable :: place(:)
     integer :: places = 0
     integer :: repeated = 0              !< of them those of the last step, but for their gaps
+    real(wp) :: reach = zero             !< they are no farther than this [L]
     logical :: is_measured = .false.     !< true gaps are those of the end of this step
   contains
     procedure :: list => node_list
@@ -127,8 +127,7 @@ contains
     integer, intent(inout) :: carrier(:)
     integer :: s
     do s = 1, watched_sides(this)
-      call mark_near(this%side(s), this%side(facing_side(this, s)), this%near(s), taken, &
-          carrier)
+      call mark_near(this%side(s), this%side(facing_side(this, s)), this%near(s), taken, carrier)
     end do
   end subroutine node_mark_interface
 
@@ -159,6 +158,7 @@ contains
     if (this%listed == 0) return
     view = near_view(this)
     view%reach = view%reach + 2.0_wp*relative_motion(this, free)
+    this%reach = view%reach
     n_first = 0
     do s = 1, watched_sides(this)
       call find_side(this, model, s, u, free, view)

@@ -225,12 +225,12 @@ contains
       if (.not. this%stands(i)) cycle
       associate (node => this%side(1)%node(this%row(i)))
         call add_row(rows, [this%number, 1, node, 0], [node, this%body], [one, -one], &
-            this%normal(:, i), this%gap(i), this%mu, edge_length(this), &
+            this%normal(:, i), this%gap(i), this%friction%static, edge_length(this), &
             merge(row_guided, row_wall, this%is_guided), zero)
       end associate
     end do
     if (this%tips%n > 0) call append_edges(this%tips, this%side(1), this%number, this%body, &
-        this%mu, rows, spare)
+        this%friction%static, rows, spare)
   end subroutine obstacle_append_rows
 
   subroutine obstacle_renew_gaps(this, rows, a, spare, b, is_same)

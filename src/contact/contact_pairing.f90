@@ -83,6 +83,7 @@ module contact_pairing
     integer :: number = 0                  !< among the pairings
     logical :: is_wall = .false.           !< rigid obstacle, without a side of nodes
     type(friction_t) :: friction
+    integer :: multiplier_side = 0         !< whose nodes carry multipliers; 0: not a mortar
     real(wp) :: birth = zero, death = huge(1.0_wp)
     logical :: is_born = .false.           !< its first step has been checked
     real(wp) :: accepted_overlap = zero    !< found then, taken as a touch [L]
@@ -117,6 +118,7 @@ module contact_pairing
     procedure :: find_passage
     procedure(whole_i), deferred :: measure_whole
     procedure(exchange_i), deferred :: exchange
+    procedure :: weigh_nodes
   end type pairing_t
 
   type, public :: pairing_slot_t
@@ -221,6 +223,14 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     type(overlap_t), intent(inout) :: overlap
   end subroutine find_passage
+
+  !> Areas of nodes that the pairing knows better than the boundary does, into area, which has
+  !> those of all its nodes [L2]; none here.
+  subroutine weigh_nodes(this, model, area)
+    class(pairing_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(inout) :: area(:)
+  end subroutine weigh_nodes
 
   !> Keeps the deeper of two overlaps, in shares of an edge.
   pure subroutine note_overlap(overlap, depth, length, node, part, is_crossing)

@@ -3,6 +3,7 @@
 module contact_registry
   use contact_cylinder, only: cylinder_t
   use contact_flat, only: flat_t
+  use contact_mortar, only: pairing_mortar_t
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
   use contact_wall, only: pairing_wall_t
@@ -19,6 +20,8 @@ contains
     select case (name)
     case ('NODE')
       allocate (pairing_node_t :: pairing)
+    case ('MORTAR')
+      allocate (pairing_mortar_t :: pairing)
     case ('WALL')
       allocate (pairing_wall_t :: pairing)
     case ('FLAT')

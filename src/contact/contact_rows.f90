@@ -12,11 +12,15 @@ module contact_rows
 
   type, public :: rows_t
     integer :: n = 0
-    !> (4, n) pairing, side of the contactor node, the node, edge (< 0: vertex)
+    integer :: most_points = 3             !< of a row, so far
+    !> (4, n) pairing, side of the contactor node, the node, edge (< 0: vertex; 0: of a wall or
+    !> of a mortar)
     integer, allocatable :: key(:, :)
     integer, allocatable :: kind(:)        !< row_...
     integer, allocatable :: first(:)       !< (n + 1) first point of a row
-    integer, allocatable :: point(:)       !< nodes, contactor first
+    !> nodes: the contactor with weight 1, then the obstacle's; behind them others of the
+    !> contactor's side and once more the first, where a mortar row has them
+    integer, allocatable :: point(:)
     integer, allocatable :: slot(:)        !< the same among the interface nodes
     real(wp), allocatable :: weight(:)     !< c_k
     real(wp), allocatable :: normal(:, :)  !< (2, n)
@@ -37,14 +41,14 @@ module contact_rows
   end type rows_t
 
   !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall, a
-  !> wall that slides along its normal, which no tangential force moves; late rows come when
-  !> the solved step has shown that they are missing.
+  !> wall that slides along its normal, which no tangential force moves, the multiplier of a
+  !> mortar; late rows come when the solved step has shown that they are missing.
   integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
-      row_guided = 5, row_kinds = 5
+      row_guided = 5, row_mortar = 6, row_kinds = 6
 
-  public :: start_rows, add_row, renew_gap, copy_row, copy_rows, swap_rows, same_geometry, &
-      carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, &
-      row_force, add_row_force, row_of_h
+  public :: start_rows, size_points, add_row, renew_gap, copy_row, copy_rows, swap_rows, &
+      same_geometry, carry_reactions, take_reactions, comes_before, find_slots, &
+      relative_displacement, row_force, add_row_force, row_of_h
 
 contains
 
@@ -60,7 +64,8 @@ contains
     rows%first(1) = 1
   end subroutine start_rows
 
-  !> Storage for n rows of at most three points; what is in it is kept.
+  !> Storage for n rows, of three points each where no longer one has come; what is in it is
+  !> kept.
   pure subroutine size_rows(rows, n)
     type(rows_t), intent(inout) :: rows
     integer, intent(in) :: n
@@ -70,7 +75,6 @@ contains
     call size_reals(rows%r_previous, 2, n)
     call size_reals(rows%r_older, 2, n)
     call size_reals(rows%u, 2, n)
-    call size_real(rows%weight, 3*n)
     call size_real(rows%gap, n)
     call size_real(rows%offset, n)
     call size_real(rows%offset_t, n)
@@ -78,15 +82,26 @@ contains
     call size_real(rows%mu, n)
     call size_real(rows%length, n)
     call size_integer(rows%first, n + 1)
-    call size_integer(rows%point, 3*n)
-    call size_integer(rows%slot, 3*n)
     call size_integer(rows%status, n)
     call size_integer(rows%kind, n)
     call size_logical(rows%is_rigid, n)
     call size_logical(rows%is_marked, n)
     call size_logical(rows%is_active, n)
     call size_logical(rows%is_twin, n)
+    call size_points(rows, 3*n)
   end subroutine size_rows
+
+  !> Storage for n points at least.
+  pure subroutine size_points(rows, n)
+    type(rows_t), intent(inout) :: rows
+    integer, intent(in) :: n
+    if (allocated(rows%weight)) then
+      if (size(rows%weight) >= n) return
+    end if
+    call size_real(rows%weight, n)
+    call size_integer(rows%point, n)
+    call size_integer(rows%slot, n)
+  end subroutine size_points
 
   pure subroutine size_reals(a, m, n)
     real(wp), allocatable, intent(inout) :: a(:, :)
@@ -150,6 +165,7 @@ contains
     associate (a => rows%n)
       rows%key(:, a) = key
       rows%first(a + 1) = rows%first(a) + size(point)
+      if (size(point) > 3) call make_room(rows)
       do k = 1, size(point)
         rows%point(rows%first(a) + k - 1) = point(k)
         rows%weight(rows%first(a) + k - 1) = weight(k)
@@ -173,6 +189,17 @@ contains
       rows%status(a) = contact_open
     end associate
   end subroutine add_row
+
+  !> Room for the points of the last row, which has more than three.
+  pure subroutine make_room(rows)
+    type(rows_t), intent(inout) :: rows
+    associate (first => rows%first(rows%n), behind => rows%first(rows%n + 1))
+      rows%most_points = max(rows%most_points, behind - first)
+      ! What is left holds all other rows, if they have three points each.
+      if (behind - 1 + 3*(size(rows%gap) - rows%n) > size(rows%weight)) &
+          call size_points(rows, 2*(behind - 1) + 3*size(rows%gap))
+    end associate
+  end subroutine make_room
 
   !> A new gap [L] for the row behind row a, which must be of this node.
   pure subroutine renew_gap(rows, a, node, gap, is_same)
@@ -237,6 +264,7 @@ contains
           best = k
           exit
         end if
+        if (old%key(4, k) == 0 .or. rows%key(4, a) == 0) cycle    ! of a node no other's
         if (dot_product(old%normal(:, k), rows%normal(:, a)) > 0.9_wp) best = k
       end do
       if (best > 0) call take_reactions(old, best, rows, a)

@@ -5,6 +5,8 @@ module contact_setup
   use cone_types, only: cone_options_t, contact_open
   use contact_area, only: make_nodal
   use contact_friction, only: friction_t, friction_varies
+  use contact_grade, only: finer_none
+  use contact_mortar_side, only: contactor_side
   use contact_node, only: pairing_node_t
   use contact_obstacle, only: obstacle_t
   use contact_pairing, only: pairing_t
@@ -51,7 +53,7 @@ contains
     contact%d = 1
     if (any(model%contact%mu > zero) .or. any(model%wall%mu > zero)) contact%d = 2
     do p = 1, size(model%contact)
-      call make_pairing('NODE', contact%pairing(p)%item)
+      call make_pairing(trim(model%contact(p)%pairing), contact%pairing(p)%item)
       call set_card(model, model%contact(p), contact%pairing(p)%item)
     end do
     do p = 1, size(model%wall)
@@ -120,7 +122,7 @@ contains
       end do
     end if
     select type (pairing)
-    type is (pairing_node_t)
+    class is (pairing_node_t)
       pairing%finer = card%contactor
       pairing%is_self = card%is_self
       allocate (pairing%leaves_out(0, 0))
@@ -130,6 +132,10 @@ contains
       end if
       if (.not. card%is_self) pairing%may_share = &
           any(pairing%side(1)%index > 0 .and. pairing%side(2)%index > 0)
+      if (card%pairing /= 'MORTAR') return
+      pairing%finer = finer_none
+      pairing%multiplier_side = card%contactor
+      if (card%contactor == 0) pairing%multiplier_side = contactor_side(model, pairing%side)
     end select
   end subroutine set_card
 

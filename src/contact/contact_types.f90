@@ -69,7 +69,7 @@ module contact_types
     real(wp), allocatable :: mu_law(:)            !< (n) where friction varies: of the slips
     real(wp), allocatable :: mu_bound(:, :)       !< (2, n) between which the answer is
     type(anderson_t), allocatable :: mu_memory    !< of its iteration
-    !> (6, d n) dofs of the interface that a row of H takes, their weights, how many
+    !> (*, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)
     real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]

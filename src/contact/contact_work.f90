@@ -6,7 +6,7 @@ module contact_work
   use cone_certificate, only: bipotential_residual
   use cone_types, only: certificate_t, contact_open, contact_stick
   use contact_ramp, only: ramp_push
-  use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force
+  use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force, row_mortar
   use contact_pairing, only: node_forces_t, pair_sums_t, no_gap
   use contact_surface, only: surface_t
   use contact_types, only: contact_t
@@ -134,16 +134,20 @@ contains
     integer, intent(in) :: a
     type(surface_t), intent(in) :: side(2)
     type(node_forces_t), intent(inout) :: nodal
-    real(wp) :: force(2)
+    real(wp) :: force(2), weight
     integer :: k, at, s
     force = row_force(rows, a)
     do k = rows%first(a), rows%first(a + 1) - 1
       s = rows%key(2, a)
       if (k > rows%first(a) .and. size(side(2)%node) > 0) s = 3 - s
+      if (side(s)%index(rows%point(k)) == 0) s = 3 - s   ! a second node of the contactor
       at = nodal%first(s) + side(s)%index(rows%point(k))
       if (.not. abs(rows%weight(k)) > zero) cycle
       nodal%force(:, at) = nodal%force(:, at) + rows%weight(k)*force
-      nodal%normal(at) = nodal%normal(at) + abs(rows%weight(k))*rows%r(1, a)
+      weight = abs(rows%weight(k))
+      if (rows%kind(a) == row_mortar) weight = &
+          merge(rows%weight(k), -rows%weight(k), s == rows%key(2, a))
+      nodal%normal(at) = nodal%normal(at) + weight*rows%r(1, a)
       if (abs(rows%u(2, a)) > abs(nodal%slip(at))) nodal%slip(at) = rows%u(2, a)
       nodal%status(at) = max(nodal%status(at), rows%status(a))
     end do

@@ -93,12 +93,13 @@ contains
     call add_card(table)
     call add_field(table, 'CID', 'I10 req >0', 'contact: its id, or its number in the deck')
     call add_field(table, 'SIDE', 'W10 =AUTO |AUTO|A|B|BOTH|', &
-        'whose nodes are exact: A, B, both, or AUTO: of the locally finer side')
+        'whose nodes are exact, AUTO: of the locally finer side; MORTAR: who has multipliers')
     call add_field(table, 'ATYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFA is')
     call add_field(table, 'BTYP', 'W10 |PART|PARTSET|NODESET|SEGSET|', 'what SURFB is')
     call add_field(table, 'REST', 'R10 >=0 <=1', &
         'restitution of its contact nodes; blank = REST of *BIPACT_TIME')
-    call add_field(table, 'PAIRING', 'W10 =NODE |NODE|', 'how the sides are paired')
+    call add_field(table, 'PAIRING', 'W10 =NODE |NODE|MORTAR|', &
+        'rows of nodes, or of dual multipliers on faces')
     call add_field(table, 'QUAD', 'I10 fixed')
     call add_field(table, 'OVERLAP', 'W10 =ERROR '//choices(overlaps), 'overlap at the '// &
         'start: an error, contactor nodes are moved onto the obstacle, pushed out in statics')

@@ -94,6 +94,7 @@ module model_data
     integer :: side(2) = 0          !< row of the set or part
     !> Side whose nodes are exact: 1 = SURFA, 2 = SURFB, 3 = both, 0 = the locally finer one
     integer :: contactor = 0
+    character(6) :: pairing = 'NODE'
     logical :: is_self = .false.    !< one surface against itself: that of parts(:)
     logical :: is_of_all = .false.  !< of all parts: what other cards name is theirs
     integer, allocatable :: parts(:)

@@ -407,6 +407,20 @@ contains
     if (failed(status)) call add_place(status, moment(run))
   end subroutine check_overlap
 
+  !> Does the energy balance close, does energy grow? Not asked at t = 0: dynamics begins with
+  !> its energies there, statics has round-off for energies.
+  subroutine watch_energy(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    if (abs(run%ledger%residual) > open_balance) run%open_balances = run%open_balances + 1
+    if (.not. run%ledger%growth > run%model%controls%growth) return
+    run%ledger%growths = run%ledger%growths + 1
+    if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
+    if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
+        'energy growth of '//to_text(run%ledger%growth)//' of the largest term', &
+        place=moment(run), hint='choose another scheme (doc/theory.md), or ACTION WARN')
+  end subroutine watch_energy
+
   !> Energies, growth of energy, rotation of elements.
   subroutine monitor(run, status)
     type(run_t), intent(inout) :: run
@@ -422,14 +436,7 @@ contains
       run%rotation = angle
       run%rotation_element = element
     end if
-    if (abs(run%ledger%residual) > open_balance) run%open_balances = run%open_balances + 1
-    if (run%ledger%growth > run%model%controls%growth) then
-      run%ledger%growths = run%ledger%growths + 1
-      if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
-      if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &
-          'energy growth of '//to_text(run%ledger%growth)//' of the largest term', &
-          place=moment(run), hint='choose another scheme (doc/theory.md), or ACTION WARN')
-    end if
+    if (run%state%cycle > 0) call watch_energy(run, status)
     if (run%model%controls%end_ratio > zero) then
       if (abs(run%ledger%ratio - one) > run%model%controls%end_ratio) call fail(status, &
           status_numerical, 'the energy ratio is '//to_text(run%ledger%ratio)// &

@@ -8,7 +8,8 @@ module run_report
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
-  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided
+  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided, &
+      row_mortar
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
   use deck_names, only: step_fixed
@@ -150,11 +151,19 @@ contains
     type(totals_t), intent(in) :: totals
     integer, intent(in) :: unit
     character(:), allocatable :: line
+    integer :: p
+    do p = 1, size(contact%pairing)
+      associate (item => contact%pairing(p)%item)
+        if (item%multiplier_side > 0) write (unit, '(a)') 'mortar of contact '// &
+            to_text(item%id)//': multipliers on '//side_name(item%multiplier_side)
+      end associate
+    end do
     associate (t => contact%tally)
       line = 'rows in contact solves: edge '//to_text(t%rows(row_edge))//', vertex '// &
           to_text(t%rows(row_vertex))//', second '//to_text(t%rows(row_second))//', wall '// &
-          to_text(t%rows(row_wall) + t%rows(row_guided))//'; of them with an allowance '// &
-          to_text(t%allowances)
+          to_text(t%rows(row_wall) + t%rows(row_guided))
+      if (t%rows(row_mortar) > 0) line = line//', mortar '//to_text(t%rows(row_mortar))
+      line = line//'; of them with an allowance '//to_text(t%allowances)
       write (unit, '(a)') line
       write (unit, '(a)') '  late rows '//to_text(t%late_rows)//', frames redone '// &
           to_text(t%new_frames)//', repeats for the purse '//to_text(t%repeats)// &
@@ -162,6 +171,12 @@ contains
           ', steps that outran a list '//to_text(t%redone)
     end associate
   end subroutine write_rows_by_kind
+
+  pure function side_name(side) result(name)
+    integer, intent(in) :: side
+    character(5) :: name
+    name = merge('SURFA', 'SURFB', side == 1)
+  end function side_name
 
   !> The largest resident memory; "unknown" where the system does not tell it.
   pure function memory_text(totals) result(text)

@@ -131,8 +131,9 @@ contains
     work = work + half*sum(run%state%du*run%unbalanced)
   end subroutine unbalanced_work
 
-  !> After a pass: is the residual of equilibrium small? Fails after MAXPASS passes, or when a
-  !> body moves by the same again and again.
+  !> After a pass: is the residual of equilibrium small, or the move below the digits of the
+  !> coordinates (faces that touch to round-off, without a load)? Fails after MAXPASS passes, or
+  !> when a body moves by the same again and again.
   subroutine check_pass(run, pass, is_done, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: pass
@@ -151,7 +152,8 @@ contains
     end do
     if (run%plan%loads) scale = sum(abs(run%load_1))
     scale = max(scale, maxval(abs(run%force)))
-    is_done = residual <= run%model%controls%static_residual*scale
+    is_done = residual <= run%model%controls%static_residual*scale .or. &
+        maxval(abs(run%x - run%x_pass)) <= epsilon(one)*maxval(abs(run%model%x))
     run%same_moves = merge(run%same_moves + 1, 0, pass > 1 &
         .and. change <= 1.0e-6_wp*maxval(abs(run%x - run%x_pass)))
     run%move = run%x - run%x_pass

@@ -10,7 +10,8 @@ module run_summary
   use base_system, only: peak_memory
   use base_timers, only: phase_count, phase_name
   use base_version, only: version
-  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided
+  use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided, &
+      row_mortar
   use deck_data, only: deck_t
   use run_data, only: run_t
   implicit none
@@ -243,6 +244,7 @@ contains
       call json%put(t%rows(row_vertex), 'rows_vertex')
       call json%put(t%rows(row_second), 'rows_second')
       call json%put(t%rows(row_wall) + t%rows(row_guided), 'rows_wall')
+      call json%put(t%rows(row_mortar), 'rows_mortar')
       call json%put(t%allowances, 'rows_with_allowance')
       call json%put(t%late_rows, 'late_rows')
       call json%put(t%new_frames, 'frames_redone')

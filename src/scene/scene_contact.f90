@@ -43,6 +43,8 @@ contains
     call read_pairs(deck, model, maps, pair)
     do k = 1, size(record)
       call find_sides(deck, model, maps, pair(k), model%contact(k))
+      if (model%contact(k)%pairing == 'MORTAR') &
+          call check_mortar(deck, pair(k), model%contact(k))
     end do
     if (deck%problems%count == 0) call share_parts(deck, model)
     do k = 1, size(record)
@@ -147,6 +149,7 @@ contains
           call add_warning(deck%problems, 'both-sides', deck%place(r)//': SIDE BOTH: nodes '// &
               'of both sides are exact; their reactions are not unique, resultants are')
         end if
+        model%contact(row)%pairing = deck%word(r, 'PAIRING')
       end if
       r = deck%next('BIPACT_PAIR', 1, r)
     end do
@@ -217,6 +220,25 @@ contains
       end select
     end do
   end subroutine find_sides
+
+  !> Multipliers live on the edges of one of two surfaces.
+  subroutine check_mortar(deck, pair, card)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: pair
+    type(contact_card_t), intent(in) :: card
+    character(*), parameter :: instead = 'take PAIRING NODE'
+    if (card%contactor == 3) then
+      call deck%complain(pair, 'SIDE', 'MORTAR has multipliers on one side: expected A, B '// &
+          'or AUTO', instead//' where both sides are to have exact nodes')
+    else if (card%is_self) then
+      call deck%complain(pair, 'PAIRING', 'MORTAR needs two surfaces; this contact is of one', &
+          instead)
+    else if (any(card%kind == side_node_set)) then
+      call deck%complain(pair, 'PAIRING', 'MORTAR needs edges on both sides; '// &
+          surface(findloc(card%kind, side_node_set, 1))//' is a set of nodes', &
+          instead//', or a segment set')
+    end if
+  end subroutine check_mortar
 
   !> Bodies of different thickness in contact: forces are totals, pressures differ.
   subroutine warn_thickness(deck, model)

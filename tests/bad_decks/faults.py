@@ -529,6 +529,10 @@ BLOCK_FAULTS = [
     ),
     ("adjusted by both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,,,ADJUST\n*END"),
     ("overlap of no such kind", "*END", "*BIPACT_PAIR\n1,,,,,,,PUSH\n*END"),
+    ("mortar on both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,MORTAR\n*END"),
+    ("mortar of a node set", "*END", "*BIPACT_PAIR\n1,,,NODESET,,MORTAR\n*SET_NODE_LIST\n12,\n1,2\n*END"),
+    ("mortar of one surface", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE_ID\n7,\n,\n*BIPACT_PAIR\n7,,,,,MORTAR\n*END"),
+    ("pairing that is not available", "*END", "*BIPACT_PAIR\n         1,,,,,MORTARSTD\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
     (
         "wall without normal",

@@ -823,7 +823,7 @@ def purse():
     check(short > 0, "the purse was short in some step")
 
 
-def stacked(upper, lower, rows=None):
+def stacked(upper, lower, rows=None, pair=None):
     """A block under a pressure of 1 on a block as wide that stands held: mean displacement of
     the top at rest (theta 1 with steps of some periods)."""
     scene = Scene(dt=0.02, steps=40, theta=1.0, every=0.8)
@@ -831,7 +831,7 @@ def stacked(upper, lower, rows=None):
     layers = rows or max(2, upper // 2)
     block = scene.body(upper, layers, box(-0.5, 0.0, 1.0, 0.5))
     scene.hold(base.row(0))
-    scene.contact(2, 1)
+    scene.contact(2, 1, pair=pair)
     scene.curve(5, [(0.0, 1.0), (1.0e3, 1.0)])
     top = block.row(layers)
     scene.cards += ["*LOAD_SEGMENT_SET", "%d,5,1.0" % scene.segment_set(top[::-1])]

@@ -25,6 +25,7 @@ from scenes import BIPACT, TMP, at_most, bipact, check, finish, make_bars, show
 
 import fields
 import make_scenes
+import mortar
 
 HDF5 = re.sub(r"bipact([^/]*)$", r"bipact-hdf5\1", BIPACT)
 RESTART = "*BIPACT_RESTART\n%10d%10s%10d\n"
@@ -175,6 +176,8 @@ def contact():
         ("open", geometry.open_floor("segments")),
         ("glued", geometry.glued()),
         ("inclined", geometry.inclined()),
+        ("mortar", mortar.thrown("B,,,,MORTAR", steps=120)),
+        ("mortar, corner", mortar.thrown("A,,,,MORTAR", 0.3, 0.2, (0.2, -1.5), steps=400)),
     ):
         text = with_cards(scene.text(), RESTART % (scene.steps // 6, "", 9))
         if name != "glued":  # it has fields of its own
