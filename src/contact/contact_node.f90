@@ -127,7 +127,8 @@ contains
     integer, intent(inout) :: carrier(:)
     integer :: s
     do s = 1, watched_sides(this)
-      call mark_near(this%side(s), this%side(facing_side(this, s)), this%near(s), taken, carrier)
+      call mark_near(this%side(s), this%side(facing_side(this, s)), this%near(s), taken, &
+          carrier)
     end do
   end subroutine node_mark_interface
 
@@ -448,8 +449,7 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     type(overlap_t), intent(inout) :: overlap
     integer :: s
-    if (this%is_self) return
-    do s = 1, 2
+    do s = 1, merge(0, 2, this%is_self)
       if (this%side(3 - s)%is_closed) call deepest_passage(this%side(s), this%side(3 - s), &
           this%near(s), model%x, u, du, overlap)
     end do
