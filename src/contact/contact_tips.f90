@@ -110,7 +110,8 @@ contains
   end subroutine see
 
   !> Which of the listed edges a tip stands before, at the start of the step or where the free
-  !> motion ends: of edges that face each other (a thin body) the nearer one.
+  !> motion ends. Of edges that face each other (a thin body) the nearer one; behind an edge,
+  !> and before another at a convex corner, the other.
   subroutine find_edges(tips, side, body, x, u, free)
     type(tips_t), intent(inout) :: tips
     type(surface_t), intent(in) :: side
@@ -133,7 +134,8 @@ contains
       do j = 1, tips%n
         if (i == j .or. tips%tip(i) /= tips%tip(j)) cycle
         if (.not. (tips%stands(i) .and. tips%stands(j))) cycle
-        if (dot_product(tips%normal(:, i), tips%normal(:, j)) > -half) cycle
+        if (dot_product(tips%normal(:, i), tips%normal(:, j)) > -half .and. &
+            tips%gap(i) + tips%radius > -tip_allowance*side%length(tips%edge(i))) cycle
         if (abs(tips%gap(i)) > abs(tips%gap(j))) tips%stands(i) = .false.
       end do
     end do
