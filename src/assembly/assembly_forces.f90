@@ -149,6 +149,9 @@ contains
     angle = zero
     element = 0
     do k = 1, size(system%node, 2)
+      if (allocated(system%idle)) then    ! rigid parts turn as they will
+        if (.not. any(abs(system%stiffness(:, :, k)) > zero)) cycle
+      end if
       d = x(:, system%node(3, k)) - x(:, system%node(1, k))
       e = d + (u(:, system%node(3, k)) - u(:, system%node(1, k)))
       ! Unit sizes first: the products of an unbounded motion would overflow.
@@ -202,7 +205,8 @@ contains
     do k = 1, size(model%gravity)
       associate (g => model%gravity(k))
         value = factor*g%factor*curve_value(model%curve(g%curve), time)
-        p(g%direction, :) = p(g%direction, :) - value*system%lumped
+        p(g%direction, :system%heavy) = p(g%direction, :system%heavy) &
+            - value*system%lumped(:system%heavy)
       end associate
     end do
   end subroutine add_loads

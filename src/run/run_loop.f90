@@ -15,6 +15,7 @@ module run_loop
   use contact_stage, only: evaluate_contact
   use contact_work, only: add_contact_step, contact_work_t
   use deck_names, only: step_halve
+  use model_rigid, only: move_followers
   use output_tables, only: any_due, energies_due
   use run_damping, only: update_damping, keep_damping, damping_work
   use run_data, only: run_t, open_balance
@@ -24,6 +25,8 @@ module run_loop
   use run_restart, only: keep_restart, how_to_go_on
   use run_operator, only: factor_matrix, use_operator
   use run_setup, only: start_dynamics
+  use run_rigid, only: begin_rigid, renew_levers, carry_parts, set_true_motion, &
+      find_motion_before
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
   use run_step, only: begin_step, judge_step, note_faults, at_end, starts_dynamics, share_of_run
@@ -91,6 +94,7 @@ contains
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
+    if (allocated(run%rigid)) call begin_rigid(run)
     call run%scheme%begin_step(run%state%cycle - run%first_cycle, run%state%h_last)
     do stage = 1, size(run%scheme%stage)
       if (stage > 1 .and. run%scheme%stage(stage)%only_in_contact .and. .not. acting) exit
@@ -101,18 +105,64 @@ contains
       if (run%plan%contact) call look_back(run, stage, again, status)
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
+      if (allocated(run%rigid) .and. .not. allocated(run%shift)) &
+          call find_turns(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       if (run%plan%damping) call keep_damping(run, stage)
       call run%scheme%update(stage, run%x, run%state)
       if (run%scheme%stage(stage)%moves) call swap(run%state%du, run%x)
+      if (allocated(run%rigid)) call carry(run)
       if (allocated(run%other)) call close_stage(run, stage, acting, status)
     end do
     run%state%cycle = run%state%cycle + 1
     run%state%time = t1
     run%state%h_last = run%scheme%h
     call add_step_work(run, acting, status)
+    if (allocated(run%rigid)) call set_true_motion(run)
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance_to
+
+  !> Solves the stage until the turns of rigid parts are those that their levers were made for.
+  !> Each pass gains the digits of half a turn.
+  subroutine find_turns(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    integer, parameter :: most_passes = 50
+    integer :: pass
+    logical :: again, outrun
+    do pass = 1, most_passes
+      if (failed(status)) return
+      call renew_levers(run, again)
+      if (.not. again) return
+      run%rigid%passes = run%rigid%passes + 1
+      call solve_stage(run, stage, t1, acting, status)
+      call check_finite(run, stage, status)
+      call look_back(run, stage, outrun, status)
+      if (outrun) call solve_again(run, stage, t1, acting, status)
+    end do
+    call fail(status, status_numerical, 'rigid parts turn too far in the step: its turns '// &
+        'are not found', place=moment(run), hint='take a smaller step')
+  end subroutine find_turns
+
+  !> State and motions of the nodes that follow rigid parts, after a stage.
+  subroutine carry(run)
+    type(run_t), intent(inout) :: run
+    integer :: k
+    call carry_parts(run)
+    associate (rigid => run%model%rigid, lever => run%rigid%lever)
+      call move_followers(rigid, lever, run%state%du)
+      if (allocated(run%scheme%conjugate)) &
+          call move_followers(rigid, lever, run%scheme%conjugate)
+      if (.not. allocated(run%scheme%stage_work)) return
+      do k = 1, size(run%scheme%stage_work)
+        if (allocated(run%scheme%stage_work(k)%x)) &
+            call move_followers(rigid, lever, run%scheme%stage_work(k)%x)
+      end do
+    end associate
+  end subroutine carry
 
   !> Further passes of a load step whose bodies are not held by supports alone.
   subroutine find_equilibrium(run, stage, t1, acting, status)
@@ -128,6 +178,10 @@ contains
     run%move = zero
     do
       call check_pass(run, pass, is_done, status)
+      if (allocated(run%rigid)) then
+        call renew_levers(run, again)
+        is_done = is_done .and. .not. again
+      end if
       if (is_done .or. failed(status)) exit
       pass = pass + 1
       call solve_stage(run, stage, t1, acting, status)
@@ -312,10 +366,25 @@ contains
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%scheme%conjugate, run%ledger%contact)
     else
-      call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
-          run%scheme%h, run%state%du, run%ledger%contact)
+      call add_works(run)
     end if
   end subroutine add_step_work
+
+  !> Works of contact in the motion of the step. Forces of its begin act on rigid parts by the
+  !> levers of the step before.
+  subroutine add_works(run)
+    type(run_t), intent(inout) :: run
+    if (allocated(run%rigid)) then
+      if (allocated(run%rigid%motion_before)) then
+        call find_motion_before(run)
+        call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
+            run%scheme%h, run%state%du, run%ledger%contact, run%rigid%motion_before)
+        return
+      end if
+    end if
+    call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
+        run%scheme%h, run%state%du, run%ledger%contact)
+  end subroutine add_works
 
   !> Reactions of held dofs and their work in the step [F L].
   subroutine find_motion_work(run, work)

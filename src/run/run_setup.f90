@@ -20,6 +20,7 @@ module run_setup
   use run_motion, only: make_motions, start_reactions
   use run_operator, only: factor_matrix, make_operators, change_operators
   use run_plan, only: make_plan, add_feature
+  use run_rigid, only: make_rigid
   use run_static, only: make_shift
   use scene_model, only: make_scene
   use time_ledger, only: make_ledger
@@ -85,6 +86,7 @@ contains
     end if
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
+    call make_rigid(run)
     if (run%plan%reactions) call make_motions(run)
     if (run%plan%damping) call make_damping(run, run%scheme%h)
     call run%scheme%start(run%model, run%system, run%state, status)
@@ -205,6 +207,7 @@ contains
     if (run%plan%contact) call set_contact_rule(run)
     if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
     run%state%v = run%model%v0
+    call make_rigid(run)
     run%scheme%starts_in_balance = .true.
     if (run%plan%damping) call update_damping(run, run%state%time + run%scheme%h, changed)
     call run%scheme%start(run%model, run%system, run%state, status)
