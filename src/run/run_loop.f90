@@ -105,7 +105,7 @@ contains
       if (run%plan%contact) call look_back(run, stage, again, status)
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
-      if (allocated(run%rigid) .and. .not. allocated(run%shift)) &
+      if (allocated(run%rigid) .and. stage == 1 .and. .not. allocated(run%shift)) &
           call find_turns(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       if (run%plan%damping) call keep_damping(run, stage)

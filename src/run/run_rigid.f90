@@ -34,7 +34,7 @@ contains
         r%row(rigid%node) = [(k, k=1, size(rigid%node))]
         r%slot = 0
       end if
-      r%is_middle = size(run%scheme%stage) == 1 .and. .not. run%scheme%staggered%on &
+      r%is_middle = run%scheme%stage(1)%moves .and. .not. run%scheme%staggered%on &
           .and. run%scheme%stage(1)%rule%level == level_position
       if (run%scheme%weight_before > zero .and. .not. allocated(r%motion_before)) then
         allocate (r%lever_before(2, size(rigid%node)))
@@ -56,6 +56,7 @@ contains
       r%turn = zero
       if (r%is_middle) r%turn = run%scheme%h*rotations(rigid, state%v)
       call find_levers(rigid, rotations(rigid, state%u), r%turn, r%lever)
+      call move_followers(rigid, r%lever, state%v)
     end associate
   end subroutine begin_rigid
 
@@ -204,6 +205,7 @@ contains
       change = maxval(abs(turn - r%turn)*max(abs(turn), abs(r%turn)))
       r%turn = turn
       call find_levers(rigid, rotations(rigid, run%state%u), turn, r%lever)
+      call move_followers(rigid, r%lever, run%state%v)
       again = change > epsilon(one) .and. run%plan%contact
       if (again) again = run%contact%rows%n > 0
       if (.not. again) call move_followers(rigid, r%lever, run%x)
