@@ -39,7 +39,7 @@ module assembly_system
     real(wp), allocatable :: stiffness(:, :, :)
     integer, allocatable :: massless_layer(:)  !< elements with a massless node
     type(damping_t), allocatable :: damping    !< only where the deck has it
-    !> Nodes without mass and stiffness: those that follow rigid parts; only where there are any
+    !> Nodes without mass and stiffness: those that follow rigid parts; only with these
     integer, allocatable :: idle(:)
     !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
     !> node of each: set together, by CONSTRAIN
@@ -175,7 +175,8 @@ contains
       n = node_count(model%connectivity(:, e))
       ke = zero
       associate (part => model%part(model%element_part(e)))
-        if (.not. part%is_rigid) call system%element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
+        if (.not. part%is_rigid) call system%element(n)%item%stiffness( &
+            model%x(:, model%connectivity(1:n, e)), &
             model%material(part%material)%item%moduli(part%plane), part%thickness, &
             ke(1:2*n, 1:2*n))
       end associate
@@ -218,8 +219,8 @@ contains
     end do
   end subroutine effective_matrix
 
-  !> Ones on the diagonal of nodes that follow, and of held dofs without an entry: no zero pivot,
-  !> and no motion where there is no force.
+  !> Ones on the diagonal of nodes that follow, and of held dofs without an entry: no zero
+  !> pivot, and no motion where there is no force.
   pure subroutine fill_idle(system, matrix)
     type(system_t), intent(in) :: system
     type(block_matrix_t), intent(inout) :: matrix

@@ -61,7 +61,8 @@ contains
           call fallback(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end do
-    if (options%solver == solver_auto) call start_over(options, w, q, mu, m, r, work, certificate)
+    if (options%solver == solver_auto) &
+        call start_over(options, w, q, mu, m, r, work, certificate)
     if (certificate%met) return
     call fail_uncertified(m, w, mu, r, work%u, certificate, status)
   end subroutine solve_dense

@@ -25,7 +25,8 @@ contains
     call refuse(table, 'MAT_BLATZ-KO_RUBBER', 'materials are *MAT_ELASTIC and *MAT_RIGID')
     call refuse(table, 'MAT_MOONEY-RIVLIN_RUBBER', 'materials are *MAT_ELASTIC and *MAT_RIGID')
     call refuse(table, 'MAT_PLASTIC_KINEMATIC', 'materials are *MAT_ELASTIC and *MAT_RIGID')
-    call refuse(table, 'MAT_PIECEWISE_LINEAR_PLASTICITY', 'materials are *MAT_ELASTIC and *MAT_RIGID')
+    call refuse(table, 'MAT_PIECEWISE_LINEAR_PLASTICITY', &
+        'materials are *MAT_ELASTIC and *MAT_RIGID')
     call refuse(table, 'ELEMENT_SOLID', 'models are plane: *ELEMENT_SHELL')
     call refuse(table, 'SECTION_SOLID', 'models are plane: *SECTION_SHELL')
     call refuse(table, 'LOAD_BODY_Z', 'models are plane')

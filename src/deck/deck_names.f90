@@ -10,8 +10,8 @@ module deck_names
   integer, parameter, public :: table_count = 11
   !> File name without .tab.
   character(7), parameter, public :: table_names(table_count) = [character(7) :: 'glstat', &
-      'matsum', 'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', 'rwforc', &
-      'rbdout']
+      'matsum', 'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', &
+      'rwforc', 'rbdout']
   !> Keyword that asks for it.
   character(16), parameter, public :: table_keywords(table_count) = [character(16) :: &
       'DATABASE_GLSTAT', 'DATABASE_MATSUM', 'DATABASE_NODOUT', 'DATABASE_ELOUT', &

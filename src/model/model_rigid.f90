@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Rigid parts in the plane. A part is two nodes of its own: the centre of its mass, and a rotor,
-!> whose first direction is k phi, phi the rotation and k = sqrt(J/m) the radius of gyration, and
-!> whose second is held. Both have the mass m, so that m (|V_c|^2 + (k phi')^2)/2 is the kinetic
-!> energy and no matrix of the bodies knows of rotations. The nodes of its mesh have no mass;
-!> they follow: x_i = c + R(phi) X_i.
+!> Rigid parts in the plane. A part is two nodes of its own: the centre of its mass, and a
+!> rotor, whose first direction is k phi, phi the rotation and k = sqrt(J/m) the radius of
+!> gyration, and whose second is held. Both have the mass m, so that m (|V_c|^2 + (k phi')^2)/2
+!> is the kinetic energy and no matrix of the bodies knows of rotations. The nodes of its mesh
+!> have no mass; they follow: x_i = c + R(phi) X_i.
 !>   A step from phi_0 to phi_1 moves them by dU_i = dc + l_i k dphi with the lever
 !>   l_i = f e_z x (R_0 + R_1) X_i/(2 k),  f = 2 tan(dphi/2)/dphi,
 !> exactly; l_i = e_z x R_0 X_i/k is that of the start of the step. Forces on them act on the

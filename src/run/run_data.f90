@@ -125,6 +125,9 @@ module run_data
     type(state_t) :: state
     type(step_control_t) :: step
     type(system_t) :: system
+    !> What the energy may rise by without a word, where parts are held by contact alone: the
+    !> residual of equilibrium over the size of the scene [F L].
+    real(wp) :: least_energy = zero
     class(scheme_t), allocatable :: scheme
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix

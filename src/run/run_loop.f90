@@ -15,7 +15,6 @@ module run_loop
   use contact_stage, only: evaluate_contact
   use contact_work, only: add_contact_step, contact_work_t
   use deck_names, only: step_halve
-  use model_rigid, only: move_followers
   use output_tables, only: any_due, energies_due
   use run_damping, only: update_damping, keep_damping, damping_work
   use run_data, only: run_t, open_balance
@@ -25,8 +24,7 @@ module run_loop
   use run_restart, only: keep_restart, how_to_go_on
   use run_operator, only: factor_matrix, use_operator
   use run_setup, only: start_dynamics
-  use run_rigid, only: begin_rigid, renew_levers, carry_parts, set_true_motion, &
-      find_motion_before
+  use run_rigid, only: begin_rigid, renew_levers, carry, set_true_motion, add_rigid_works
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
   use run_step, only: begin_step, judge_step, note_faults, at_end, starts_dynamics, share_of_run
@@ -146,23 +144,6 @@ contains
     call fail(status, status_numerical, 'rigid parts turn too far in the step: its turns '// &
         'are not found', place=moment(run), hint='take a smaller step')
   end subroutine find_turns
-
-  !> State and motions of the nodes that follow rigid parts, after a stage.
-  subroutine carry(run)
-    type(run_t), intent(inout) :: run
-    integer :: k
-    call carry_parts(run)
-    associate (rigid => run%model%rigid, lever => run%rigid%lever)
-      call move_followers(rigid, lever, run%state%du)
-      if (allocated(run%scheme%conjugate)) &
-          call move_followers(rigid, lever, run%scheme%conjugate)
-      if (.not. allocated(run%scheme%stage_work)) return
-      do k = 1, size(run%scheme%stage_work)
-        if (allocated(run%scheme%stage_work(k)%x)) &
-            call move_followers(rigid, lever, run%scheme%stage_work(k)%x)
-      end do
-    end associate
-  end subroutine carry
 
   !> Further passes of a load step whose bodies are not held by supports alone.
   subroutine find_equilibrium(run, stage, t1, acting, status)
@@ -365,26 +346,13 @@ contains
     if (allocated(run%scheme%conjugate)) then
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%scheme%conjugate, run%ledger%contact)
+    else if (allocated(run%rigid)) then
+      call add_rigid_works(run)
     else
-      call add_works(run)
+      call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
+          run%scheme%h, run%state%du, run%ledger%contact)
     end if
   end subroutine add_step_work
-
-  !> Works of contact in the motion of the step. Forces of its begin act on rigid parts by the
-  !> levers of the step before.
-  subroutine add_works(run)
-    type(run_t), intent(inout) :: run
-    if (allocated(run%rigid)) then
-      if (allocated(run%rigid%motion_before)) then
-        call find_motion_before(run)
-        call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
-            run%scheme%h, run%state%du, run%ledger%contact, run%rigid%motion_before)
-        return
-      end if
-    end if
-    call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
-        run%scheme%h, run%state%du, run%ledger%contact)
-  end subroutine add_works
 
   !> Reactions of held dofs and their work in the step [F L].
   subroutine find_motion_work(run, work)
@@ -489,7 +457,8 @@ contains
       run%rotation_element = element
     end if
     if (abs(run%ledger%residual) > open_balance) run%open_balances = run%open_balances + 1
-    if (run%ledger%growth > run%model%controls%growth) then
+    if (run%ledger%growth > run%model%controls%growth .and. &
+        run%ledger%growth*run%ledger%largest > run%least_energy) then
       run%ledger%growths = run%ledger%growths + 1
       if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
       if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &

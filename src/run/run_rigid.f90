@@ -1,22 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Rigid parts in a step. The solver knows centres and rotors, contact knows the nodes of meshes:
-!> here motions, forces and flexibilities go from the ones to the others by the levers of
+!> Rigid parts in a step. The solver knows centres and rotors, contact the nodes of meshes: here
+!> motions, forces and flexibilities go from the ones to the others by the levers of
 !> model_rigid. A scheme that poses contact on positions in one stage has the levers of the
 !> middle of its step, so that H dU is the motion as it is: the turns of the step, which they
 !> depend on, are found by repeating the solve. The others have those of the start, and their
 !> works are those of H times the motion of centres and rotors.
 module run_rigid
-  use base_kinds, only: wp, zero, one, half
-  use base_status, only: status_t, fail, status_numerical
+  use base_kinds, only: wp, zero, one
   use contact_rule, only: level_position
-  use contact_work, only: subtract_contact_force
+  use contact_work, only: subtract_contact_force, add_contact_step
   use model_rigid, only: rotations, find_levers, move_followers, place_followers, gather_forces
   use run_data, only: run_t
   implicit none
   private
   public :: make_rigid, begin_rigid, link_interface, keep_flexibility, spread_flexibility, &
-      spread_motion, collect_forces, renew_levers, carry_parts, set_true_motion, &
-      subtract_contact, find_motion_before
+      spread_motion, collect_forces, renew_levers, carry, set_true_motion, subtract_contact, &
+      add_rigid_works
 
 contains
 
@@ -60,8 +59,8 @@ contains
     end associate
   end subroutine begin_rigid
 
-  !> The nodes that the solver keeps to the end for the interface as it is: its nodes, in place of
-  !> those that follow the centres and rotors of their parts.
+  !> The nodes that the solver keeps to the end for the interface as it is: its nodes, and in
+  !> place of those that follow the centres and rotors of their parts.
   subroutine link_interface(run)
     type(run_t), intent(inout) :: run
     logical :: is_kept(run%system%n)
@@ -120,7 +119,8 @@ contains
           c = r%slot(rigid%centre(rigid%of(r%row(node(k)))))
           p = r%slot(rigid%rotor(rigid%of(r%row(node(k)))))
           associate (l => r%lever(:, r%row(node(k))))
-            r%half_spread(2*k - 1, :) = r%flexibility(2*c - 1, :) + l(1)*r%flexibility(2*p - 1, :)
+            r%half_spread(2*k - 1, :) = r%flexibility(2*c - 1, :) &
+                + l(1)*r%flexibility(2*p - 1, :)
             r%half_spread(2*k, :) = r%flexibility(2*c, :) + l(2)*r%flexibility(2*p - 1, :)
           end associate
         end if
@@ -237,8 +237,8 @@ contains
     end associate
   end subroutine find_accelerations
 
-  !> After the works of a step: its motion as it was, for which those of the start of the step are
-  !> not enough.
+  !> After the works of a step: its motion as it was, for which the levers of its start are not
+  !> enough.
   subroutine set_true_motion(run)
     type(run_t), intent(inout) :: run
     real(wp) :: lever(2, size(run%model%rigid%node)), turn(size(run%rigid%turn))
@@ -260,11 +260,37 @@ contains
     if (allocated(run%rigid)) call gather_forces(run%model%rigid, run%rigid%lever, f)
   end subroutine subtract_contact
 
-  !> The motion (2, nodes) on which the forces of the step before do work in this one.
-  subroutine find_motion_before(run)
+  !> State and motions of the nodes that follow rigid parts, after a stage.
+  subroutine carry(run)
     type(run_t), intent(inout) :: run
-    run%rigid%motion_before = run%state%du
-    call move_followers(run%model%rigid, run%rigid%lever_before, run%rigid%motion_before)
-  end subroutine find_motion_before
+    integer :: k
+    call carry_parts(run)
+    associate (rigid => run%model%rigid, lever => run%rigid%lever)
+      call move_followers(rigid, lever, run%state%du)
+      if (allocated(run%scheme%conjugate)) &
+          call move_followers(rigid, lever, run%scheme%conjugate)
+      if (.not. allocated(run%scheme%stage_work)) return
+      do k = 1, size(run%scheme%stage_work)
+        if (allocated(run%scheme%stage_work(k)%x)) &
+            call move_followers(rigid, lever, run%scheme%stage_work(k)%x)
+      end do
+    end associate
+  end subroutine carry
+
+  !> Works of contact in the motion of the step; forces of the step before act by its levers.
+  subroutine add_rigid_works(run)
+    type(run_t), intent(inout) :: run
+    associate (s => run%scheme, r => run%rigid, du => run%state%du)
+      if (allocated(r%motion_before)) then
+        r%motion_before = du
+        call move_followers(run%model%rigid, r%lever_before, r%motion_before)
+        call add_contact_step(run%contact, s%weight_before, s%weight_now, s%h, du, &
+            run%ledger%contact, r%motion_before)
+      else
+        call add_contact_step(run%contact, s%weight_before, s%weight_now, s%h, du, &
+            run%ledger%contact)
+      end if
+    end associate
+  end subroutine add_rigid_works
 
 end module run_rigid

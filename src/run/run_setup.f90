@@ -83,6 +83,8 @@ contains
       allocate (run%x_pass(2, run%system%n), run%move(2, run%system%n))
       allocate (run%unbalanced(2, run%system%n), source=zero)
       run%x_pass = zero
+      if (allocated(run%model%rigid)) run%least_energy = run%model%controls%static_residual* &
+          maxval(run%shift)*maxval(maxval(run%model%x, dim=2) - minval(run%model%x, dim=2))**2
     end if
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)

@@ -69,8 +69,8 @@ contains
         to_text(model%part(p)%id)//' is not rigid', 'its material must be *MAT_RIGID')
   end function body_at
 
-  !> Initial velocities: *INITIAL_VELOCITY_RIGID_BODY, then those of *PART_INERTIA, then the rigid
-  !> motion that the velocities of the nodes are. Constraints win.
+  !> Initial velocities: *INITIAL_VELOCITY_RIGID_BODY, then those of *PART_INERTIA, then the
+  !> rigid motion that the velocities of the nodes are. Constraints win.
   subroutine read_velocities(deck, model, maps, body_of, body)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model

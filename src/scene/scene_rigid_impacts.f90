@@ -25,15 +25,15 @@ contains
     if (traits%takes_restitution .or. model%controls%is_static) return
     do k = 1, size(model%contact)
       call find_pair(model, k, body_of, pair)
-      if (pair(1) > 0) call warn(deck, model, 'rigid parts '//to_text(model%part(pair(1))%id)// &
-          ' and '//to_text(model%part(pair(2))%id)//' of contact '// &
-          to_text(model%contact(k)%id))
+      if (pair(1) > 0) call warn(deck, model, 'rigid parts '// &
+          to_text(model%part(pair(1))%id)//' and '//to_text(model%part(pair(2))%id)// &
+          ' of contact '//to_text(model%contact(k)%id))
     end do
     do k = 1, size(model%wall)
       pair(1) = findloc(body_of > 0 .and. parts_at(model, side_node_set, &
           model%wall(k)%node_set), .true., dim=1)
-      if (pair(1) > 0) call warn(deck, model, 'rigid part '//to_text(model%part(pair(1))%id)// &
-          ' and wall '//to_text(model%wall(k)%id))
+      if (pair(1) > 0) call warn(deck, model, 'rigid part '// &
+          to_text(model%part(pair(1))%id)//' and wall '//to_text(model%wall(k)%id))
     end do
   end subroutine warn_of_impacts
 
@@ -43,11 +43,11 @@ contains
     character(*), intent(in) :: who
     call add_warning(deck%problems, 'rigid-impact', who//': scheme '// &
         trim(model%controls%scheme)//' has no law for their impacts, they rebound by the '// &
-        'phase of the touch in a step; take MOREAU, PAOLI or CDLAGRANGE, unless they only rest '// &
-        'on each other')
+        'phase of the touch in a step; take MOREAU, PAOLI or CDLAGRANGE, unless they only '// &
+        'rest on each other')
   end subroutine warn
 
-  !> Two parts of different rigid bodies that a contact card brings together; 0 = there are none.
+  !> Two parts of different rigid bodies that a contact card brings together; 0 = none.
   pure subroutine find_pair(model, k, body_of, pair)
     type(model_t), intent(in) :: model
     integer, intent(in) :: k, body_of(:)
