@@ -67,9 +67,9 @@ contains
     call fail_uncertified(m, w, mu, r, work%u, certificate, status)
   end subroutine solve_dense
 
-  !> The last resort: the proximal loop from no reactions at all. Where more contacts hold a
-  !> rigid part than it has freedoms, the start decides which of many answers the others crawl
-  !> to.
+  !> The last resort: from no reactions at all the rule of AUTO on blocks, then the proximal
+  !> loop. Where more contacts hold a rigid part than it has freedoms,
+  !> W is singular, and the start decides to which of many answers the sweeps crawl.
   subroutine start_over(options, w, q, mu, m, r, work, certificate)
     type(cone_options_t), intent(in) :: options
     type(delassus_dense_t), intent(in) :: w
@@ -78,14 +78,18 @@ contains
     real(wp), intent(inout), contiguous :: r(:, :)
     type(cone_work_t), intent(inout) :: work
     type(certificate_t), intent(inout) :: certificate
-    type(cone_options_t) :: proximal
+    type(cone_options_t) :: other
+    integer :: k
     real(wp), dimension(size(q, 1), size(q, 2)) :: kept
     kept = r
-    r = zero
-    proximal = options
-    proximal%solver = solver_prox
-    call solve_by_blocks(proximal, w, q, mu, m, r, work, certificate)
-    if (.not. certificate%met) r = kept
+    other = options
+    do k = 1, 2
+      r = zero
+      other%solver = merge(solver_auto, solver_prox, k == 1)
+      call solve_by_blocks(other, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+    end do
+    r = kept
   end subroutine start_over
 
   !> A direct solve is worth it when the statuses are new and the system is small or the sweeps

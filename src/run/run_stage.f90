@@ -6,7 +6,7 @@ module run_stage
   use assembly_forces, only: add_loads, subtract_internal_force, subtract_layer_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
-  use base_status, only: status_t
+  use base_status, only: status_t, failed
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_contact
   use contact_condense, only: clear_constrained
@@ -219,10 +219,11 @@ contains
     call run%solver%solve_schur(run%x_interface)
   end subroutine add_contact
 
-  !> The contact problem of the step as a file, where the deck asks for it.
+  !> The contact problem of the step as a file, where the deck asks for it, solved or not.
   subroutine dump_contact(run, status)
     type(run_t), intent(in) :: run
     type(status_t), intent(inout) :: status
+    type(status_t) :: writing
     character(24) :: name
     integer :: step
     step = run%state%cycle + 1
@@ -231,8 +232,9 @@ contains
       if (mod(step - c%dump_first, c%dump_every) /= 0) return
       write (name, '(a,i9.9,a)') 'contact_', step, '.txt'
       call write_contact_problem(join_path(run%folder, trim(name)), 'step '//to_text(step), &
-          p%w%matrix, p%q, p%mu, p%r, status)
+          p%w%matrix, p%q, p%mu, p%r, writing)
     end associate
+    if (.not. failed(status)) status = writing
   end subroutine dump_contact
 
   !> Loads at both ends of the step, and their weighted sum into b.
