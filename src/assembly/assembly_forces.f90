@@ -149,9 +149,6 @@ contains
     angle = zero
     element = 0
     do k = 1, size(system%node, 2)
-      if (allocated(system%idle)) then    ! rigid parts turn as they will
-        if (.not. any(abs(system%stiffness(:, :, k)) > zero)) cycle
-      end if
       d = x(:, system%node(3, k)) - x(:, system%node(1, k))
       e = d + (u(:, system%node(3, k)) - u(:, system%node(1, k)))
       ! Unit sizes first: the products of an unbounded motion would overflow.
@@ -163,6 +160,9 @@ contains
       sine = d(1)*e(2) - d(2)*e(1)
       cosine = d(1)*e(1) + d(2)*e(2)
       if (abs(sine) <= angle*cosine) cycle
+      if (allocated(system%idle)) then    ! rigid parts turn as they will
+        if (.not. any(abs(system%stiffness(:, :, k)) > zero)) cycle
+      end if
       angle = abs(sine)/max(cosine, tiny(cosine))
       element = k
     end do

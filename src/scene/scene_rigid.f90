@@ -31,6 +31,7 @@ contains
       call find_nodes(deck, model, body_of, body)
       if (deck%problems%count > 0) return
       call check_followers(deck, model, body)
+      if (deck%problems%count > 0) return
       call add_nodes(model, body)
     else
       allocate (body(0))
