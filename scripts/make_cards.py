@@ -3,7 +3,7 @@
 
 Columns, names and help come from `bipact --keywords`, so the deck cannot fall behind the table;
 the values, below, make a scene that runs: a block of quadrilaterals and triangles flies at a
-held base, with loads, a moved edge and every table. make doc writes it to
+held base, a rigid body beside it, with loads, a moved edge and every table. make doc writes it to
 input/cards/every_keyword.k."""
 
 import argparse
@@ -21,7 +21,10 @@ NODES += [
 QUADS = [(k + 1, 1, k + 1, k + 2, k + 12, k + 11) for k in range(3)] + [
     (11, 2, 101, 102, 112, 111)
 ]
+RIGID = [(201, 2.4, 0.3), (202, 2.8, 0.3), (203, 2.8, 0.7), (204, 2.4, 0.7)]
+RIGID += [(211, 2.9, 0.3), (212, 3.1, 0.3), (213, 3.1, 0.5), (214, 2.9, 0.5)]
 TRIANGLES = [(12, 2, 102, 103, 113), (13, 2, 102, 113, 112)]
+RIGID_QUADS = [(21, 3, 201, 202, 203, 204), (22, 4, 211, 212, 213, 214)]
 
 # Other names of keywords that stand at most once in a deck.
 OTHER_NAMES = {"DATABASE_GLSTAT_MASS_PROPERTIES"}
@@ -46,10 +49,10 @@ SCENE = (
         ),
         ("BIPACT_SOLVER", [{"ENGINE": "LDLT", "ORDER": "AUTO"}]),
         ("BIPACT_LEDGER", [{"EVERY": 10, "GROWTH": "1.0E-9", "ACTION": "WARN"}]),
-        ("NODE", [{"NID": n, "X": x, "Y": y} for n, x, y in NODES]),
+        ("NODE", [{"NID": n, "X": x, "Y": y} for n, x, y in NODES + RIGID]),
         (
             "ELEMENT_SHELL",
-            [dict(zip(("EID", "PID", "N1", "N2", "N3", "N4"), e)) for e in QUADS + TRIANGLES],
+            [dict(zip(("EID", "PID", "N1", "N2", "N3", "N4"), e)) for e in QUADS + TRIANGLES + RIGID_QUADS],
         ),
         ("ELEMENT_BEAM", [{"EID": 91, "PID": 9, "N1": 1, "N2": 2}]),
         (
@@ -59,11 +62,28 @@ SCENE = (
                 {"PID": 1, "SECID": 1, "MID": 1},
                 {"HEADING": "block"},
                 {"PID": 2, "SECID": 1, "MID": 2},
+                {"HEADING": "rigid"},
+                {"PID": 3, "SECID": 1, "MID": 3},
+            ],
+        ),
+        (
+            "PART_INERTIA",
+            [
+                {"HEADING": "rigid, joined to part 3"},
+                {"PID": 4, "SECID": 1, "MID": 4},
+                {"XC": 3.0, "YC": 0.4, "TM": 1.0e-4},
+                {"IZZ": 2.0e-6},
+                {"VTX": 0.0},
             ],
         ),
         ("SECTION_SHELL", [{"SECID": 1, "ELFORM": 13, "NIP": 4}, {"T1": 1.0}]),
         ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
         ("MAT_001", [{"MID": 2, "RO": 0.001, "E": 500.0, "PR": 0.0}]),
+        (
+            "MAT_RIGID",
+            [{"MID": 3, "RO": 0.001}, {"CMO": 1.0, "CON1": 1, "CON2": 0}, {}],
+        ),
+        ("MAT_020", [{"MID": 4, "RO": 0.001}, {}, {}]),
         ("SET_NODE_LIST", [{"SID": 1}, {"NID1": 1, "NID2": 2, "NID3": 3, "NID4": 4}]),
         ("SET_NODE", [{"SID": 2}, {"NID1": 111}]),
         ("SET_NODE_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 101, "B1END": 113}]),
@@ -91,6 +111,8 @@ SCENE = (
         ("INITIAL_VELOCITY", [{"NSID": 3}, {"VX": 0.2, "VY": "-&v0"}]),
         ("INITIAL_VELOCITY_NODE", [{"NID": 1}]),
         ("INITIAL_VELOCITY_GENERATION", [{"ID": 1, "STYP": 2}, {}]),
+        ("INITIAL_VELOCITY_RIGID_BODY", [{"PID": 3, "VY": 1.0}]),
+        ("CONSTRAINED_RIGID_BODIES", [{"PIDL": 3, "PIDC": 4}]),
         ("BOUNDARY_SPC_SET", [{"NSID": 1, "DOFX": 1, "DOFY": 1}]),
         ("BOUNDARY_SPC_NODE", [{"NID": 11, "DOFX": 1}]),
         (
@@ -101,6 +123,11 @@ SCENE = (
             "BOUNDARY_PRESCRIBED_MOTION_NODE",
             [{"NID": 14, "DOF": 1, "VAD": 2, "LCID": 1, "SF": 0.001, "BIRTH": 0.0005}],
         ),
+        (
+            "BOUNDARY_PRESCRIBED_MOTION_RIGID",
+            [{"PID": 3, "DOF": 7, "VAD": 2, "LCID": 1, "SF": 0.001}],
+        ),
+        ("LOAD_RIGID_BODY", [{"PID": 3, "DOF": 2, "LCID": 1, "SF": 0.01}]),
         ("LOAD_NODE_SET", [{"NSID": 2, "DOF": 2, "LCID": 1, "SF": -0.01}]),
         ("LOAD_NODE_POINT", [{"NID": 113, "DOF": 2, "LCID": 1, "SF": -0.01}]),
         ("LOAD_SEGMENT_SET", [{"SSID": 1, "LCID": 1, "SF": 0.1}]),
@@ -172,6 +199,7 @@ SCENE = (
             "SLEOUT",
             "SPCFORC",
             "NCFORC",
+            "RBDOUT",
         )
     ]
     + [

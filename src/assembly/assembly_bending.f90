@@ -58,7 +58,9 @@ contains
         bending%step(n))
     bending%largest = zero
     bending%step = 0
+    bending%moduli = zero
     do p = 1, n
+      if (model%part(p)%is_rigid) cycle
       associate (part => model%part(p))
         d = part%thickness*model%material(part%material)%item%moduli(part%plane)
       end associate

@@ -160,6 +160,9 @@ contains
       sine = d(1)*e(2) - d(2)*e(1)
       cosine = d(1)*e(1) + d(2)*e(2)
       if (abs(sine) <= angle*cosine) cycle
+      if (allocated(system%idle)) then    ! rigid parts turn as they will
+        if (.not. any(abs(system%stiffness(:, :, k)) > zero)) cycle
+      end if
       angle = abs(sine)/max(cosine, tiny(cosine))
       element = k
     end do
@@ -202,9 +205,8 @@ contains
     do k = 1, size(model%gravity)
       associate (g => model%gravity(k))
         value = factor*g%factor*curve_value(model%curve(g%curve), time)
-        associate (n => model%nodes - model%bodies)
-          p(g%direction, :n) = p(g%direction, :n) - value*system%lumped(:n)
-        end associate
+        p(g%direction, :system%heavy) = p(g%direction, :system%heavy) &
+            - value*system%lumped(:system%heavy)
       end associate
     end do
   end subroutine add_loads

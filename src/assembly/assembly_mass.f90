@@ -8,6 +8,7 @@ module assembly_mass
   use element_base, only: element_t, element_slot_t
   use linalg_graph, only: graph_t
   use model_data, only: model_t, node_count
+  use model_rigid, only: rigid_t
   implicit none
   private
   public :: element_mass, redistribution_targets, assemble_mass
@@ -63,6 +64,7 @@ contains
     mass = zero
     do e = 1, model%elements
       if (.not. abs(weight(model%element_part(e))) > zero) cycle
+      if (model%part(model%element_part(e))%is_rigid) cycle
       call element_mass(model, element(node_count(model%connectivity(:, e)))%item, e, me)
       me = weight(model%element_part(e))*me
       do j = 1, 4
@@ -81,7 +83,23 @@ contains
         end associate
       end do
     end do
+    if (allocated(model%rigid)) call add_rigid_masses(model%rigid, graph, weight, mass)
   end subroutine assemble_mass
+
+  !> Centres and rotors of rigid parts.
+  pure subroutine add_rigid_masses(rigid, graph, weight, mass)
+    type(rigid_t), intent(in) :: rigid
+    type(graph_t), intent(in) :: graph
+    real(wp), intent(in) :: weight(:)
+    real(wp), intent(inout) :: mass(:)
+    integer :: p
+    do p = 1, size(rigid%part)
+      mass(graph%position(rigid%centre(p), rigid%centre(p))) = &
+          weight(rigid%part(p))*rigid%mass(p)
+      mass(graph%position(rigid%rotor(p), rigid%rotor(p))) = &
+          weight(rigid%part(p))*rigid%mass(p)
+    end do
+  end subroutine add_rigid_masses
 
   !> Where the mass of each node goes: itself, or for a massless contact node the inner
   !> neighbours, i.e. the nodes joined to it by an element edge that are no contact nodes

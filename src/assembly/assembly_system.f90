@@ -31,6 +31,7 @@ module assembly_system
     logical :: mass_is_diagonal = .false.
     !> (n) row sums of the mass [M]: body loads, momentum
     real(wp), allocatable :: lumped(:)
+    integer :: heavy = 0                      !< nodes that gravity acts on: all but rotors
     type(element_slot_t) :: element(3:4)      !< the element types by their number of nodes
     integer, allocatable :: node(:, :)      !< (4, ne) rows of nodes
     !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
@@ -39,6 +40,8 @@ module assembly_system
     integer, allocatable :: massless_layer(:)  !< elements with a massless node
     type(damping_t), allocatable :: damping    !< only where the deck has it
     integer, allocatable :: massless_body(:)   !< nodes without mass and element, all held
+    !> Nodes without mass and stiffness: those that follow rigid parts; only with these
+    integer, allocatable :: idle(:)
     !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
     !> node of each: set together, by CONSTRAIN
     logical, allocatable :: fixed(:, :)
@@ -61,6 +64,11 @@ contains
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
     integer :: k
     system%n = model%nodes
+    system%heavy = model%nodes - model%bodies
+    if (allocated(model%rigid)) then
+      system%heavy = system%heavy - size(model%rigid%rotor)
+      system%idle = model%rigid%node
+    end if
     system%node = model%connectivity
     call make_element(3, system%element(3)%item)
     call make_element(4, system%element(4)%item)
@@ -146,6 +154,7 @@ contains
       m = 0
       do e = 1, model%elements
         clique_first(e) = m + 1
+        if (model%part(model%element_part(e))%is_rigid) cycle
         do k = 1, 4
           i = model%connectivity(k, e)
           m = m + 1
@@ -188,7 +197,8 @@ contains
       n = node_count(model%connectivity(:, e))
       ke = zero
       associate (part => model%part(model%element_part(e)))
-        call system%element(n)%item%stiffness(model%x(:, model%connectivity(1:n, e)), &
+        if (.not. part%is_rigid) call system%element(n)%item%stiffness( &
+            model%x(:, model%connectivity(1:n, e)), &
             model%material(part%material)%item%moduli(part%plane), part%thickness, &
             ke(1:2*n, 1:2*n))
       end associate
@@ -222,6 +232,7 @@ contains
       matrix%value(1, 1, k) = matrix%value(1, 1, k) + c_m*system%mass(k)
       matrix%value(2, 2, k) = matrix%value(2, 2, k) + c_m*system%mass(k)
     end do
+    if (allocated(system%idle)) call fill_idle(system, matrix)
     if (.not. system%any_fixed) return
     do i = 1, system%n
       do k = system%graph%first(i), system%graph%first(i + 1) - 1
@@ -235,6 +246,36 @@ contains
       matrix%value(2, 2, k) = one
     end do
   end subroutine effective_matrix
+
+  !> Ones on the diagonal of nodes that follow, and of held dofs without an entry: no zero
+  !> pivot, and no motion where there is no force.
+  pure subroutine fill_idle(system, matrix)
+    type(system_t), intent(in) :: system
+    type(block_matrix_t), intent(inout) :: matrix
+    integer :: k, d
+    do k = 1, size(system%idle)
+      do d = 1, 2
+        call set_one(system, d, system%idle(k), matrix)
+      end do
+    end do
+    do k = 1, size(system%fixed_list, 2)
+      call set_one(system, system%fixed_list(1, k), system%fixed_list(2, k), matrix)
+    end do
+  end subroutine fill_idle
+
+  pure subroutine set_one(system, direction, node, matrix)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: direction, node
+    type(block_matrix_t), intent(inout) :: matrix
+    integer :: k
+    if (abs(matrix%diagonal_entry(system%graph, direction, node)) > zero) return
+    if (allocated(matrix%diagonal)) then
+      matrix%diagonal(direction, node) = one
+    else
+      k = system%graph%position(node, node)
+      matrix%value(direction, direction, k) = one
+    end if
+  end subroutine set_one
 
   !> matrix = matrix + factor * C.
   pure subroutine add_damping(system, factor, matrix)
@@ -268,6 +309,7 @@ contains
       matrix%diagonal(:, i) = c_m*system%lumped(i)
     end do
     matrix%diagonal(:, system%massless_body) = one
+    if (allocated(system%idle)) call fill_idle(system, matrix)
   end subroutine diagonal_matrix
 
   pure subroutine clear_block(row, column, diagonal, block)

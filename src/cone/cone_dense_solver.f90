@@ -3,7 +3,7 @@
 !> have found, a direct solve; where that is slow, complementary pivoting and the solver on
 !> blocks.
 module cone_dense_solver
-  use base_kinds, only: wp
+  use base_kinds, only: wp, zero
   use base_status, only: status_t
   use cone_active_set, only: try_active_set, try_pivoting
   use cone_blocks, only: delassus_blocks_t, blocks_from_dense
@@ -12,7 +12,7 @@ module cone_dense_solver
   use cone_dense, only: delassus_dense_t
   use cone_sweep, only: find_rho, sweep_contacts
   use cone_types, only: cone_options_t, cone_work_t, certificate_t, contact_open, &
-      contact_slip, most_pivoted, solver_auto, solver_gs
+      contact_slip, most_pivoted, solver_auto, solver_gs, solver_prox
   implicit none
   private
   public :: solve_dense
@@ -61,8 +61,36 @@ contains
           call fallback(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
     end do
+    if (options%solver == solver_auto) &
+        call start_over(options, w, q, mu, m, r, work, certificate)
+    if (certificate%met) return
     call fail_uncertified(m, w, mu, r, work%u, certificate, status)
   end subroutine solve_dense
+
+  !> The last resort: from no reactions at all the rule of AUTO on blocks, then the proximal
+  !> loop. Where more contacts hold a rigid part than it has freedoms,
+  !> W is singular, and the start decides to which of many answers the sweeps crawl.
+  subroutine start_over(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(delassus_dense_t), intent(in) :: w
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout), contiguous :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    type(cone_options_t) :: other
+    integer :: k
+    real(wp), dimension(size(q, 1), size(q, 2)) :: kept
+    kept = r
+    other = options
+    do k = 1, 2
+      r = zero
+      other%solver = merge(solver_auto, solver_prox, k == 1)
+      call solve_by_blocks(other, w, q, mu, m, r, work, certificate)
+      if (certificate%met) return
+    end do
+    r = kept
+  end subroutine start_over
 
   !> A direct solve is worth it when the statuses are new and the system is small or the sweeps
   !> slow.

@@ -201,6 +201,7 @@ contains
     do p = 1, size(contact%pairing)
       call contact%pairing(p)%item%mark_contact_nodes(model, taken)
     end do
+    if (allocated(model%rigid)) taken(model%rigid%node) = .false.
     list = pack([(k, k=1, model%nodes)], taken)
   end subroutine contact_nodes
 

@@ -79,7 +79,7 @@ contains
     surface%part = pack(part, taken)
     surface%part_id = model%part(surface%part)%id
     if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.
-    if (kind == side_all_nodes) node_in(:model%nodes - model%bodies) = .true.
+    if (kind == side_all_nodes) node_in(:model%mesh_nodes) = .true.
     surface%node = pack([(k, k=1, model%nodes)], node_in)
     surface%end_node = edge
     allocate (surface%index(model%nodes))

@@ -28,12 +28,14 @@ module contact_work
 contains
 
   !> Forces, impulses and works of the step just done. The bodies receive the mean reaction
-  !> weight_before r0 + weight_now r1 over a step of length h and of motion du (2, nodes).
-  subroutine add_contact_step(contact, weight_before, weight_now, h, du, work)
+  !> weight_before r0 + weight_now r1 over a step of length h and of motion du (2, nodes);
+  !> du_before: the motion on which r0 does work, where it is another one.
+  subroutine add_contact_step(contact, weight_before, weight_now, h, du, work, du_before)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in) :: weight_before, weight_now, h
     real(wp), intent(in), contiguous :: du(:, :)
     type(contact_work_t), intent(inout) :: work
+    real(wp), intent(in), optional, contiguous :: du_before(:, :)
     integer :: a, p
     if (checks_on) call assert_shape(shape(du), [2, size(contact%slot)], 'add_contact_step', &
         'du')
@@ -58,7 +60,11 @@ contains
     end do
     if (weight_before > zero) then
       do a = 1, contact%before%n
-        call add_weighted_work(contact, contact%before, a, weight_before, du, work)
+        if (present(du_before)) then
+          call add_weighted_work(contact, contact%before, a, weight_before, du_before, work)
+        else
+          call add_weighted_work(contact, contact%before, a, weight_before, du, work)
+        end if
       end do
     end if
     do p = 1, size(contact%pairing)

@@ -20,6 +20,7 @@ contains
     call add_motion(table, 'BOUNDARY_PRESCRIBED_MOTION_NODE', 'NID', 'node')
     call add_load(table, 'LOAD_NODE_SET', 'NSID', 'node set', 'a force on each node of a set')
     call add_load(table, 'LOAD_NODE_POINT', 'NID', 'node', 'a force on a node')
+    call add_rigid_parts(table)
     call add_segment_loads(table)
     call add_body_load(table, 'LOAD_BODY_X')
     call add_body_load(table, 'LOAD_BODY_Y')
@@ -105,7 +106,7 @@ contains
         id=.true., required=1)
     call add_card(table)
     call add_field(table, id, 'I10 req >0', what)
-    call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
+    call add_direction(table, id)
     call add_field(table, 'VAD', 'I10 =0 >=0 <=2', &
         '0 velocity, 1 acceleration (NEWMARK only), 2 displacement')
     call add_field(table, 'LCID', 'I10 req >0', 'curve over time')
@@ -121,7 +122,7 @@ contains
     call add_keyword(table, name, help, repeat_from=1, id=.true., required=1)
     call add_card(table)
     call add_field(table, id, 'I10 req >0', what)
-    call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
+    call add_direction(table, id)
     call add_field(table, 'LCID', 'I10 req >0', 'curve of the force [F] over time')
     call add_field(table, 'SF', 'R10 =1.0 0=d', 'factor of the curve')
     call add_field(table, 'CID', 'I10 fixed')
@@ -129,6 +130,41 @@ contains
     call add_field(table, 'M2', 'I10 fixed')
     call add_field(table, 'M3', 'I10 fixed')
   end subroutine add_load
+
+  !> Parts turn, nodes do not.
+  subroutine add_direction(table, id)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: id
+    if (id == 'PID') then
+      call add_field(table, 'DOF', 'I10 req >=1 <=7', '1 = x, 2 = y, 7 = rotation about z')
+    else
+      call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
+    end if
+  end subroutine add_direction
+
+  subroutine add_rigid_parts(table)
+    type(table_t), intent(inout) :: table
+    call add_motion(table, 'BOUNDARY_PRESCRIBED_MOTION_RIGID', 'PID', 'rigid part')
+    call add_load(table, 'LOAD_RIGID_BODY', 'PID', 'rigid part', &
+        'a force or moment on a rigid part')
+    call add_keyword(table, 'INITIAL_VELOCITY_RIGID_BODY', &
+        'initial velocities of rigid parts', repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'PID', 'I10 req >0', 'rigid part')
+    call add_field(table, 'VX', 'R10 =0.0 [L/T]', 'velocity of the centre of mass')
+    call add_field(table, 'VY', 'R10 =0.0 [L/T]', 'velocity of the centre of mass')
+    call add_field(table, 'VZ', 'R10 fixed [L/T]', 'the model is plane')
+    call add_field(table, 'VXR', 'R10 fixed')
+    call add_field(table, 'VYR', 'R10 fixed')
+    call add_field(table, 'VZR', 'R10 =0.0 [1/T]', 'angular velocity')
+    call add_field(table, 'ICID', 'I10 fixed')
+    call add_keyword(table, 'CONSTRAINED_RIGID_BODIES', 'two rigid parts become one', &
+        repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'PIDL', 'I10 req >0', 'rigid part that the body is named after')
+    call add_field(table, 'PIDC', 'I10 req >0', 'rigid part that joins it')
+    call add_field(table, 'IFLAG', 'I10 fixed')
+  end subroutine add_rigid_parts
 
   subroutine add_segment_loads(table)
     type(table_t), intent(inout) :: table

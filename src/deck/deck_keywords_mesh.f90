@@ -71,17 +71,8 @@ contains
   subroutine add_parts(table)
     type(table_t), intent(inout) :: table
     call add_keyword(table, 'PART', 'a body: section and material', repeat_from=1, required=2)
-    call add_card(table)
-    call add_field(table, 'HEADING', 'T70', 'any text')
-    call add_card(table)
-    call add_field(table, 'PID', 'I10 req >0', 'part number')
-    call add_field(table, 'SECID', 'I10 =0 >=0', 'section')
-    call add_field(table, 'MID', 'I10 =0 >=0', 'material')
-    call add_field(table, 'EOSID', 'I10 fixed')
-    call add_field(table, 'HGID', 'I10 note', 'elements are fully integrated')
-    call add_field(table, 'GRAV', 'I10 fixed')
-    call add_field(table, 'ADPOPT', 'I10 fixed')
-    call add_field(table, 'TMID', 'I10 note', 'of thermal analysis')
+    call add_part_cards(table)
+    call add_inertia(table)
     call add_keyword(table, 'SECTION_SHELL', 'plane strain or stress, thickness', &
         title=.true., repeat_from=1, required=2)
     call add_card(table)
@@ -105,8 +96,83 @@ contains
     call add_field(table, 'EDGSET', 'I10 fixed')
   end subroutine add_parts
 
+  !> Heading and numbers of a part.
+  subroutine add_part_cards(table)
+    type(table_t), intent(inout) :: table
+    call add_card(table)
+    call add_field(table, 'HEADING', 'T70', 'any text')
+    call add_card(table)
+    call add_field(table, 'PID', 'I10 req >0', 'part number')
+    call add_field(table, 'SECID', 'I10 =0 >=0', 'section')
+    call add_field(table, 'MID', 'I10 =0 >=0', 'material')
+    call add_field(table, 'EOSID', 'I10 fixed')
+    call add_field(table, 'HGID', 'I10 note', 'elements are fully integrated')
+    call add_field(table, 'GRAV', 'I10 fixed')
+    call add_field(table, 'ADPOPT', 'I10 fixed')
+    call add_field(table, 'TMID', 'I10 note', 'of thermal analysis')
+  end subroutine add_part_cards
+
+  subroutine add_inertia(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'PART_INERTIA', 'a rigid part with the mass and inertia given', &
+        repeat_from=1, required=5)
+    call add_part_cards(table)
+    call add_card(table)
+    call add_field(table, 'XC', 'R10 =0.0 [L]', 'centre of mass')
+    call add_field(table, 'YC', 'R10 =0.0 [L]', 'centre of mass')
+    call add_field(table, 'ZC', 'R10 ignored [L]')
+    call add_field(table, 'TM', 'R10 req [M] >0', 'mass')
+    call add_field(table, 'IRCS', 'I10 fixed', '0: axes of the model')
+    call add_field(table, 'NODEID', 'I10 fixed', '0: the centre is XC, YC')
+    call add_card(table)
+    call add_field(table, 'IXX', 'R10 ignored')
+    call add_field(table, 'IXY', 'R10 ignored')
+    call add_field(table, 'IXZ', 'R10 ignored')
+    call add_field(table, 'IYY', 'R10 ignored')
+    call add_field(table, 'IYZ', 'R10 ignored')
+    call add_field(table, 'IZZ', 'R10 req [ML2] >0', 'moment of inertia about the centre')
+    call add_card(table)
+    call add_field(table, 'VTX', 'R10 =0.0 [L/T]', 'initial velocity of the centre')
+    call add_field(table, 'VTY', 'R10 =0.0 [L/T]', 'initial velocity of the centre')
+    call add_field(table, 'VTZ', 'R10 fixed [L/T]', 'the model is plane')
+    call add_field(table, 'VRX', 'R10 fixed')
+    call add_field(table, 'VRY', 'R10 fixed')
+    call add_field(table, 'VRZ', 'R10 =0.0 [1/T]', 'initial angular velocity')
+  end subroutine add_inertia
+
+  subroutine add_rigid_material(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    call add_keyword(table, 'MAT_RIGID', 'rigid parts', title=.true., required=3)
+    call add_card(table)
+    call add_field(table, 'MID', 'I10 req >0', 'material number')
+    call add_field(table, 'RO', 'R10 req [M/L3] >0', 'density')
+    call add_field(table, 'E', 'R10 note [F/L2]', 'of penalty contact')
+    call add_field(table, 'PR', 'R10 note', 'of penalty contact')
+    call add_field(table, 'N', 'R10 fixed')
+    call add_field(table, 'COUPLE', 'R10 fixed')
+    call add_field(table, 'M', 'R10 fixed')
+    call add_field(table, 'ALIAS', 'R10 fixed')
+    call add_card(table)
+    call add_field(table, 'CMO', 'R10 =0.0 >=0 <=1', '1: CON1 and CON2 hold the centre of mass')
+    call add_field(table, 'CON1', 'I10 =0 >=0 <=7', &
+        'held: 1 x, 2 y, 3 z, 4 x y, 5 y z, 6 z x, 7 x y z')
+    call add_field(table, 'CON2', 'I10 =0 >=0 <=7', &
+        'held rotations, as CON1; that about z is held by 3, 5, 6, 7')
+    call add_card(table)
+    call add_field(table, 'LCO/A1', 'R10 fixed', 'local axes of output')
+    do k = 2, 3
+      call add_field(table, 'A'//achar(48 + k), 'R10 fixed')
+    end do
+    do k = 1, 3
+      call add_field(table, 'V'//achar(48 + k), 'R10 fixed')
+    end do
+    call add_alias(table, 'MAT_020')
+  end subroutine add_rigid_material
+
   subroutine add_materials(table)
     type(table_t), intent(inout) :: table
+    call add_rigid_material(table)
     call add_keyword(table, 'MAT_ELASTIC', 'linear elastic material', title=.true., required=1)
     call add_card(table)
     call add_field(table, 'MID', 'I10 req >0', 'material number')

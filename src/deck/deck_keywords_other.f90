@@ -22,11 +22,11 @@ contains
         'STAGED_*', 'STOCHASTIC_*', 'STRESS_*', 'SWITCH_*', 'TERMINATION_*', 'TRANSLATE_*', &
         'UNIT_*', 'USER_*', 'ACOUSTIC_*', 'DYNAIN_*', 'COSIM_*', 'EF_*']
     integer :: k
-    call refuse(table, 'MAT_RIGID', 'the one material is *MAT_ELASTIC')
-    call refuse(table, 'MAT_BLATZ-KO_RUBBER', 'the one material is *MAT_ELASTIC')
-    call refuse(table, 'MAT_MOONEY-RIVLIN_RUBBER', 'the one material is *MAT_ELASTIC')
-    call refuse(table, 'MAT_PLASTIC_KINEMATIC', 'the one material is *MAT_ELASTIC')
-    call refuse(table, 'MAT_PIECEWISE_LINEAR_PLASTICITY', 'the one material is *MAT_ELASTIC')
+    call refuse(table, 'MAT_BLATZ-KO_RUBBER', 'materials are *MAT_ELASTIC and *MAT_RIGID')
+    call refuse(table, 'MAT_MOONEY-RIVLIN_RUBBER', 'materials are *MAT_ELASTIC and *MAT_RIGID')
+    call refuse(table, 'MAT_PLASTIC_KINEMATIC', 'materials are *MAT_ELASTIC and *MAT_RIGID')
+    call refuse(table, 'MAT_PIECEWISE_LINEAR_PLASTICITY', &
+        'materials are *MAT_ELASTIC and *MAT_RIGID')
     call refuse(table, 'ELEMENT_SOLID', 'models are plane: *ELEMENT_SHELL')
     call refuse(table, 'SECTION_SOLID', 'models are plane: *SECTION_SHELL')
     call refuse(table, 'LOAD_BODY_Z', 'models are plane')
@@ -50,7 +50,7 @@ contains
         'ELEMENT_SHELL_DOF', 'ELEMENT_SHELL_MCID', 'ELEMENT_SHELL_OFFSET', &
         'ELEMENT_SHELL_THICKNESS', 'ELEMENT_TSHELL', 'NODE_MERGE', 'NODE_SCALAR', &
         'NODE_THICKNESS', 'NODE_TRANSFORM', 'PART_ANNEAL', 'PART_AVERAGED', &
-        'PART_COMPOSITE', 'PART_CONTACT', 'PART_DUPLICATE', 'PART_INERTIA', 'PART_MODES', &
+        'PART_COMPOSITE', 'PART_CONTACT', 'PART_DUPLICATE', 'PART_MODES', &
         'PART_MOVE', 'PART_PRINT', 'PART_REPOSITION', 'PART_SENSOR', 'SECTION_SHELL_ALE', &
         'SECTION_SHELL_EFG', 'SECTION_SHELL_MISC', 'SECTION_SHELL_THERMAL', &
         'SECTION_SHELL_XFEM', 'SECTION_TSHELL', 'MAT_ELASTIC_FLUID', 'MAT_ELASTIC_PERI', &

@@ -6,16 +6,17 @@ module deck_names
   private
   integer, parameter, public :: table_glstat = 1, table_matsum = 2, table_nodout = 3, &
       table_elout = 4, table_rcforc = 5, table_sleout = 6, table_spcforc = 7, &
-      table_ncforc = 8, table_timing = 9, table_rwforc = 10
-  integer, parameter, public :: table_count = 10
+      table_ncforc = 8, table_timing = 9, table_rwforc = 10, table_rbdout = 11
+  integer, parameter, public :: table_count = 11
   !> File name without .tab.
   character(7), parameter, public :: table_names(table_count) = [character(7) :: 'glstat', &
-      'matsum', 'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', 'rwforc']
+      'matsum', 'nodout', 'elout', 'rcforc', 'sleout', 'spcforc', 'ncforc', 'timing', &
+      'rwforc', 'rbdout']
   !> Keyword that asks for it.
   character(16), parameter, public :: table_keywords(table_count) = [character(16) :: &
       'DATABASE_GLSTAT', 'DATABASE_MATSUM', 'DATABASE_NODOUT', 'DATABASE_ELOUT', &
       'DATABASE_RCFORC', 'DATABASE_SLEOUT', 'DATABASE_SPCFORC', 'DATABASE_NCFORC', &
-      'BIPACT_TIMING', 'DATABASE_RWFORC']
+      'BIPACT_TIMING', 'DATABASE_RWFORC', 'DATABASE_RBDOUT']
 
   !> Fields that a file of frames may hold.
   character(9), parameter, public :: field_names(10) = [character(9) :: 'U', 'V', 'FORCE', &

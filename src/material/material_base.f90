@@ -10,6 +10,7 @@ module material_base
   type, abstract, public :: material_t
     integer :: id = 0
     real(wp) :: density = 0.0_wp   !< [M/L3]
+    logical :: is_rigid = .false.
   contains
     procedure(moduli_i), deferred :: moduli
     procedure(speed_i), deferred :: wave_speed

@@ -5,10 +5,12 @@ module material_registry
   use base_kinds, only: wp
   use material_base, only: material_t
   use material_elastic, only: elastic_t
+  use material_rigid, only: rigid_material_t
   implicit none
   private
   integer, parameter, public :: max_constants = 9
-  character(11), parameter, public :: material_keywords(1) = ['MAT_ELASTIC']
+  character(11), parameter, public :: material_keywords(2) = [character(11) :: &
+      'MAT_ELASTIC', 'MAT_RIGID']
   public :: make_material
 
 contains
@@ -24,6 +26,9 @@ contains
     case ('MAT_ELASTIC')
       allocate (material, source=elastic_t(id=id, density=constants(1), young=constants(2), &
           poisson=constants(3)))
+    case ('MAT_RIGID')
+      allocate (material, source=rigid_material_t(id=id, density=constants(1), &
+          is_rigid=.true.))
     end select
   end subroutine make_material
 

@@ -7,6 +7,7 @@ module model_data
   use base_strings, only: to_text
   use deck_names, only: table_count, field_names, step_fixed, overlap_error
   use material_base, only: material_slot_t
+  use model_rigid, only: rigid_t
   implicit none
   private
   !> What a prescribed motion gives (VAD).
@@ -20,6 +21,7 @@ module model_data
     integer :: material = 0         !< row in model%material
     integer :: plane = 0            !< plane_stress or plane_strain
     real(wp) :: thickness = 1.0_wp  !< [L]
+    logical :: is_rigid = .false.
     integer :: record = 0           !< its card, for messages
     character(80) :: heading = ''
   end type part_t
@@ -202,8 +204,10 @@ module model_data
   type, public :: model_t
     character(80) :: title = ''
     real(wp) :: z = 0.0_wp              !< of the plane [L]
+    !> Nodes of the mesh, then centres and rotors of rigid parts.
     integer :: nodes = 0
-    !> Of them the last, which belong to no element: rigid bodies, each with its motion
+    integer :: mesh_nodes = 0
+    !> The last nodes, which belong to no element: rigid walls, each with its motion
     integer :: bodies = 0
     integer, allocatable :: node_id(:)
     real(wp), allocatable :: x(:, :)         !< (2, nodes) [L]
@@ -216,6 +220,7 @@ module model_data
     !> (4, elements) rows of nodes; a triangle has its third node twice
     integer, allocatable :: connectivity(:, :)
     type(part_t), allocatable :: part(:)
+    type(rigid_t), allocatable :: rigid      !< only where parts are rigid
     type(material_slot_t), allocatable :: material(:)
     type(set_t), allocatable :: node_set(:)
     type(set_t), allocatable :: part_set(:)

@@ -163,7 +163,7 @@ contains
     real(wp), intent(in) :: reaction(:, :), time
     type(status_t), intent(inout) :: status
     integer :: k
-    do k = 1, model%nodes - model%bodies
+    do k = 1, model%mesh_nodes
       if (.not. any(held(:, k))) cycle
       call begin_row(file, status)
       call add_number(file, writer, time)

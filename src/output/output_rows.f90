@@ -16,7 +16,7 @@ module output_rows
   use time_ledger, only: ledger_t
   implicit none
   private
-  public :: write_glstat, write_matsum, write_nodout, write_elout, write_timing
+  public :: write_glstat, write_matsum, write_nodout, write_elout, write_rbdout, write_timing
 
 contains
 
@@ -56,7 +56,9 @@ contains
       call add_numbers(file, writer, [ledger%part_mass(p), ledger%part_kinetic(p), &
           ledger%part_internal(p)])
       call add_vector(file, writer, ledger%part_momentum(:, p))
-      velocity = ledger%part_momentum(:, p)/ledger%part_mass(p)
+      velocity = zero    ! of a rigid part that has joined another one
+      if (ledger%part_mass(p) > zero) &
+          velocity = ledger%part_momentum(:, p)/ledger%part_mass(p)
       call add_vector(file, writer, velocity)
       call end_row(file)
     end do
@@ -87,6 +89,32 @@ contains
       call end_row(file)
     end do
   end subroutine write_nodout
+
+  !> Motion of the rigid parts: of their centres of mass, and their rotation.
+  subroutine write_rbdout(file, writer, model, state, status)
+    type(table_file_t), intent(inout) :: file
+    type(real_writer_t), intent(in) :: writer
+    type(model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    type(status_t), intent(inout) :: status
+    real(wp) :: place(2)
+    integer :: p
+    do p = 1, size(model%rigid%part)
+      associate (rigid => model%rigid, c => model%rigid%centre(p), r => model%rigid%rotor(p))
+        call begin_row(file, status)
+        call add_number(file, writer, state%time)
+        call add_count(file, model%part(rigid%part(p))%id)
+        call add_number(file, writer, rigid%mass(p))
+        place = model%x(:, c) + state%u(:, c)
+        call add_vector(file, writer, place)
+        call add_vector(file, writer, state%u(:, c))
+        call add_vector(file, writer, state%v(:, c))
+        call add_numbers(file, writer, [zero, zero, state%u(1, r)/rigid%radius(p)])
+        call add_numbers(file, writer, [zero, zero, state%v(1, r)/rigid%radius(p)])
+        call end_row(file)
+      end associate
+    end do
+  end subroutine write_rbdout
 
   !> Stress (mean over the Gauss points) and strain energy of the history elements.
   subroutine write_elout(file, writer, model, system, state, status)

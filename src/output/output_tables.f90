@@ -9,7 +9,7 @@ module output_tables
   use base_strings, only: upper
   use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
       table_elout, table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, &
-      table_timing
+      table_timing, table_rbdout
   use model_data, only: model_t
   use output_table, only: table_file_t, open_table, row_is_due, next_due, add_number, &
       close_table, reopen_table, check_rows, write_out
@@ -54,6 +54,8 @@ contains
     call open_one(table_spcforc, 'time node fx fy fz')
     call open_one(table_ncforc, &
         'time contact side node fx fy fz fmx fmy fmz pressure gap slip status')
+    call open_one(table_rbdout, &
+        'time part mass x y z ux uy uz vx vy vz rx ry rz wx wy wz')
     call open_one(table_timing, 'time cycle cpu input assemble factor '// &
         'solve search contact output factors solves sweeps')
     tables%any_on = any(tables%file%on)

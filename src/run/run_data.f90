@@ -65,7 +65,25 @@ module run_data
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
     real(wp), allocatable :: schur_inverse(:, :)
+    real(wp), allocatable :: flexibility(:, :)   !< only with rigid parts: rigid_step_t
   end type operator_t
+  !> Rigid parts in a step (run_rigid).
+  type, public :: rigid_step_t
+    real(wp), allocatable :: lever(:, :)         !< (2, followers) of the step
+    real(wp), allocatable :: turn(:)             !< (parts) of the step, that of the levers
+    logical :: is_middle = .false.               !< levers of the middle of the step
+    integer, allocatable :: row(:)               !< (n) of a node among the followers, 0 = none
+    integer, allocatable :: solver_node(:)       !< nodes that the solver keeps to the end
+    integer, allocatable :: slot(:)              !< (n) of a node among them, 0 = none
+    integer, allocatable :: constrained(:)       !< their held dofs
+    real(wp), allocatable :: flexibility(:, :)   !< of them [L/F]
+    real(wp), allocatable :: half_spread(:, :)   !< work space: spread in its rows alone
+    real(wp), allocatable :: x(:, :)             !< (2, m) motion of the interface [L]
+    ! Only where forces of both ends of a step act: (2, followers) levers of the step before,
+    ! (2, n) the motion on which its forces work [L].
+    real(wp), allocatable :: lever_before(:, :), motion_before(:, :)
+    integer :: passes = 0                        !< solves that were repeated for the turns
+  end type rigid_step_t
   !> Damping of the deck.
   type, public :: damping_state_t
     real(wp), allocatable :: value(:)            !< of each card by mass, in force [1/T]
@@ -108,12 +126,16 @@ module run_data
     type(state_t) :: state
     type(step_control_t) :: step
     type(system_t) :: system
+    !> What the energy may rise by without a word, where parts are held by contact alone: the
+    !> residual of equilibrium over the size of the scene [F L].
+    real(wp) :: least_energy = zero
     class(scheme_t), allocatable :: scheme
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
     type(operator_t), allocatable :: other     !< only of schemes of two stages
     integer :: stage_in_use = 1                !< whose matrix that above is
     type(contact_t) :: contact
+    type(rigid_step_t), allocatable :: rigid   !< only with rigid parts
     type(ledger_t) :: ledger
     type(tables_t) :: tables
     type(timers_t) :: timers

@@ -24,6 +24,7 @@ module run_loop
   use run_restart, only: keep_restart, how_to_go_on
   use run_operator, only: factor_matrix, use_operator
   use run_setup, only: start_dynamics
+  use run_rigid, only: begin_rigid, renew_levers, carry, set_true_motion, add_rigid_works
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
   use run_step, only: begin_step, judge_step, note_faults, at_end, starts_dynamics, share_of_run
@@ -91,6 +92,7 @@ contains
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
     if (failed(status)) return
+    if (allocated(run%rigid)) call begin_rigid(run)
     call run%scheme%begin_step(run%state%cycle - run%first_cycle, run%state%h_last)
     do stage = 1, size(run%scheme%stage)
       if (stage > 1 .and. run%scheme%stage(stage)%only_in_contact .and. .not. acting) exit
@@ -102,18 +104,47 @@ contains
       if (run%plan%contact) call look_back(run, stage, again, status)
       if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
+      if (allocated(run%rigid) .and. stage == 1 .and. .not. allocated(run%shift)) &
+          call find_turns(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       if (run%plan%damping) call keep_damping(run, stage)
       call run%scheme%update(stage, run%x, run%state)
       if (run%scheme%stage(stage)%moves) call swap(run%state%du, run%x)
+      if (allocated(run%rigid)) call carry(run)
       if (allocated(run%other)) call close_stage(run, stage, acting, status)
     end do
     run%state%cycle = run%state%cycle + 1
     run%state%time = t1
     run%state%h_last = run%scheme%h
     call add_step_work(run, acting, status)
+    if (allocated(run%rigid)) call set_true_motion(run)
     if (failed(status)) call add_place(status, moment(run))
   end subroutine advance_to
+
+  !> Solves the stage until the turns of rigid parts are those that their levers were made for.
+  !> Each pass gains the digits of half a turn.
+  subroutine find_turns(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    integer, parameter :: most_passes = 50
+    integer :: pass
+    logical :: again, outrun
+    do pass = 1, most_passes
+      if (failed(status)) return
+      call renew_levers(run, again)
+      if (.not. again) return
+      run%rigid%passes = run%rigid%passes + 1
+      call solve_stage(run, stage, t1, acting, status)
+      call check_finite(run, stage, status)
+      call look_back(run, stage, outrun, status)
+      if (outrun) call solve_again(run, stage, t1, acting, status)
+    end do
+    call fail(status, status_numerical, 'rigid parts turn too far in the step: its turns '// &
+        'are not found', place=moment(run), hint='take a smaller step')
+  end subroutine find_turns
 
   !> Further passes of a load step whose bodies are not held by supports alone.
   subroutine find_equilibrium(run, stage, t1, acting, status)
@@ -129,6 +160,10 @@ contains
     run%move = zero
     do
       call check_pass(run, pass, is_done, status)
+      if (allocated(run%rigid)) then
+        call renew_levers(run, again)
+        is_done = is_done .and. .not. again
+      end if
       if (is_done .or. failed(status)) exit
       pass = pass + 1
       call solve_stage(run, stage, t1, acting, status)
@@ -312,6 +347,8 @@ contains
     if (allocated(run%scheme%conjugate)) then
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%scheme%conjugate, run%ledger%contact)
+    else if (allocated(run%rigid)) then
+      call add_rigid_works(run)
     else
       call add_contact_step(run%contact, run%scheme%weight_before, run%scheme%weight_now, &
           run%scheme%h, run%state%du, run%ledger%contact)
@@ -414,6 +451,7 @@ contains
     type(status_t), intent(inout) :: status
     if (abs(run%ledger%residual) > open_balance) run%open_balances = run%open_balances + 1
     if (.not. run%ledger%growth > run%model%controls%growth) return
+    if (run%ledger%growth*run%ledger%largest <= run%least_energy) return
     run%ledger%growths = run%ledger%growths + 1
     if (run%ledger%first_growth < 0) run%ledger%first_growth = run%state%cycle
     if (run%model%controls%stop_on_growth) call fail(status, status_numerical, &

@@ -7,9 +7,9 @@ module run_motion
   use assembly_part, only: part_t, rows_of_nodes, columns_of_nodes, subtract_part
   use assembly_system, only: multiply_mass, constrain, clear_fixed, set_fixed, list_dofs
   use base_kinds, only: wp, zero, one
-  use contact_work, only: subtract_contact_force
   use model_data, only: motion_t, curve_value
   use run_data, only: run_t
+  use run_rigid, only: subtract_contact
   use run_static, only: add_shift
   implicit none
   private
@@ -150,7 +150,7 @@ contains
     call subtract_internal_force(run%system, one, run%state%u, misfit)
     if (run%plan%damping) &
         call subtract_damping_force(run%system, one, run%state%v, misfit)
-    call subtract_contact_force(run%contact, -one, misfit)
+    call subtract_contact(run, -one, misfit)
     run%reaction = zero
     do k = 1, size(run%reaction_dof, 2)
       associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
@@ -180,7 +180,7 @@ contains
         run%b(:, part%row(k)) = run%b_held(:, k)
       end do
       call subtract_product(run, stage, part, x, run%b)
-      call subtract_contact_force(run%contact, -factor, run%b)
+      call subtract_contact(run, -factor, run%b)
       do k = 1, size(run%reaction_dof, 2)
         associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))
           run%mean_reaction(d, i) = run%scheme%weight_before*run%reaction(d, i)

@@ -14,6 +14,7 @@ module run_operator
   use linalg_solver, only: solver_t, solver_options_t
   use run_data, only: run_t, operator_t
   use run_motion, only: find_smooth_reactions
+  use run_rigid, only: link_interface, keep_flexibility
   implicit none
   private
   public :: make_operators, change_operators, factor_matrix, use_operator
@@ -94,6 +95,11 @@ contains
     call move_alloc(kept%solver, run%other%solver)
     call move_matrix(kept%matrix, run%other%matrix)
     call move_alloc(kept%schur_inverse, run%other%schur_inverse)
+    if (allocated(run%rigid)) then
+      call move_alloc(run%rigid%flexibility, kept%flexibility)
+      call move_alloc(run%other%flexibility, run%rigid%flexibility)
+      call move_alloc(kept%flexibility, run%other%flexibility)
+    end if
     run%contact%w_is_current = .false.
   end subroutine use_operator
 
@@ -116,7 +122,11 @@ contains
     m = size(run%contact%interface_node)
     if (again) then
       if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
-      allocate (run%b_interface(2, m), run%x_interface(2, m), run%force(2, m))
+      allocate (run%force(2, m))
+      if (allocated(run%rigid)) call link_interface(run)
+      associate (kept => size(kept_nodes(run)))
+        allocate (run%b_interface(2, kept), run%x_interface(2, kept))
+      end associate
       if (2*m > run%solver_options%block_limit) &
           call add_message(run%notes, '', 'the contact interface has '//to_text(2*m)// &
           ' dofs, more than NLAST; it is kept dense all the same')
@@ -146,7 +156,7 @@ contains
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     if (again) then
-      call run%solver%analyse(run%system%graph, run%contact%interface_node, status)
+      call run%solver%analyse(run%system%graph, kept_nodes(run), status)
       if (failed(status)) return
       run%analyses = run%analyses + 1
     end if
@@ -155,9 +165,24 @@ contains
     m = size(run%contact%interface_node)
     if (m == 0 .or. failed(status)) return
     call size_flexibility(m, run%contact%schur_inverse)
-    call run%solver%flexibility(run%contact%schur_inverse)
-    call constrain_interface(run%contact, run%system%fixed_list)
+    if (allocated(run%rigid)) then
+      call keep_flexibility(run)
+    else
+      call run%solver%flexibility(run%contact%schur_inverse)
+      call constrain_interface(run%contact, run%system%fixed_list)
+    end if
   end subroutine factor_stage
+
+  !> The nodes that come last in the elimination.
+  pure function kept_nodes(run) result(list)
+    type(run_t), intent(in) :: run
+    integer, allocatable :: list(:)
+    if (allocated(run%rigid)) then
+      list = run%rigid%solver_node
+    else
+      list = run%contact%interface_node
+    end if
+  end function kept_nodes
 
   !> That of the matrix beside the one in use is not sized with the interface.
   subroutine size_flexibility(m, schur_inverse)

@@ -6,7 +6,7 @@ module run_plan
   use base_strings, only: to_text
   use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
       table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
-      table_timing, step_halve, step_event
+      table_timing, table_rbdout, step_halve, step_event
   use model_data, only: model_t, count_steps
   use run_data, only: plan_t
   implicit none
@@ -37,6 +37,8 @@ contains
         merge('1', '0', model%controls%redistribute))
     call add_feature(plan, 'kinematics', .false., &
         'small displacements: one stiffness, factored once')
+    if (allocated(model%rigid)) call add_feature(plan, 'rigid parts', .true., &
+        to_text(size(model%rigid%part))//', finite rotations')
     call plan_tables(model, plan)
     call plan_storage(model, plan)
   end subroutine make_plan
@@ -128,8 +130,8 @@ contains
     type(plan_t), intent(inout) :: plan
     !> Order of the lines.
     integer, parameter :: order(table_count) = [table_glstat, table_matsum, table_nodout, &
-        table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
-        table_timing]
+        table_elout, table_rbdout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, &
+        table_sleout, table_timing]
     character(:), allocatable :: what
     integer :: k
     associate (r => model%requests)

@@ -67,8 +67,7 @@ contains
     type(run_t), intent(in) :: run
     integer, intent(in) :: unit
     integer :: k
-    write (unit, '(a)') 'scene: '//to_text(run%model%nodes - run%model%bodies)// &
-        ' nodes, '// &
+    write (unit, '(a)') 'scene: '//to_text(run%model%mesh_nodes)//' nodes, '// &
         to_text(run%model%elements)//' elements, '//to_text(size(run%model%part))// &
         ' parts; scheme '//trim(run%model%controls%scheme)//', mass '// &
         trim(run%model%controls%mass)

@@ -24,6 +24,7 @@ module run_setup
   use run_motion, only: make_motions, start_reactions
   use run_operator, only: factor_matrix, make_operators, change_operators
   use run_plan, only: make_plan, add_feature
+  use run_rigid, only: make_rigid
   use run_static, only: make_shift
   use scene_model, only: make_scene
   use time_ledger, only: make_ledger
@@ -91,9 +92,12 @@ contains
       allocate (run%x_pass(2, run%system%n), run%move(2, run%system%n))
       allocate (run%unbalanced(2, run%system%n), source=zero)
       run%x_pass = zero
+      if (allocated(run%model%rigid)) run%least_energy = run%model%controls%static_residual* &
+          maxval(run%shift)*maxval(maxval(run%model%x, dim=2) - minval(run%model%x, dim=2))**2
     end if
     if (run%plan%contact) call set_contact_rule(run)
     call make_state(run%model%v0, run%scheme%has_acceleration, run%state)
+    call make_rigid(run)
     if (run%plan%reactions) call make_motions(run)
     if (run%plan%damping) call make_damping(run, run%scheme%h)
     call run%scheme%start(run%model, run%system, run%state, status)
@@ -234,6 +238,7 @@ contains
     if (run%plan%contact) call set_contact_rule(run)
     if (allocated(run%shift)) deallocate (run%shift, run%x_pass, run%move, run%unbalanced)
     run%state%v = run%model%v0
+    call make_rigid(run)
     run%scheme%starts_in_balance = .true.
     if (run%plan%damping) call update_damping(run, run%state%time + run%scheme%h, changed)
     call run%scheme%start(run%model, run%system, run%state, status)

@@ -6,16 +6,18 @@ module run_stage
   use assembly_forces, only: add_loads, subtract_internal_force, subtract_layer_force
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
-  use base_status, only: status_t
+  use base_status, only: status_t, failed
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_contact
   use contact_condense, only: clear_constrained
   use contact_stage, only: solve_contact, correct_contact
   use linalg_solver, only: solve_whole
+  use model_rigid, only: move_followers, gather_forces
   use output_contact, only: write_contact_problem
   use run_damping, only: subtract_damping
   use run_data, only: run_t
   use run_motion, only: impose_motions, restore_motions, keep_right_side
+  use run_rigid, only: spread_flexibility, spread_motion, collect_forces
   use run_static, only: add_shift
   use time_ledger, only: largest_work
   implicit none
@@ -47,10 +49,19 @@ contains
     if (run%plan%contact) call add_contact(run, acting, status)
     call run%solver%backward(run%x_interface, run%x)
     run%solves = run%solves + 1
+    if (allocated(run%rigid)) call follow(run, run%x)
     if (is_refined(run)) call refine(run, stage, acting, status)
     if (run%plan%motions) call restore_motions(run)
+    if (allocated(run%rigid) .and. run%plan%motions) call follow(run, run%x)
     if (stage > 1 .and. allocated(run%scheme%free)) call find_free(run, acting)
   end subroutine solve_stage
+
+  !> Motions x (2, nodes) of the nodes that follow rigid parts.
+  subroutine follow(run, x)
+    type(run_t), intent(in) :: run
+    real(wp), intent(inout) :: x(:, :)
+    call move_followers(run%model%rigid, run%rigid%lever, x)
+  end subroutine follow
 
   !> Is this step one whose solve is refined? Steps that are halved are more than planned.
   pure logical function is_refined(run)
@@ -88,11 +99,20 @@ contains
     if (.not. run%plan%contact) return
     do pass = 1, most_passes
       call run%timers%enter(phase_contact)
-      call correct_contact(run%model, run%contact, run%x, run%force, run%x_interface, done, &
-          acting, status)
+      if (allocated(run%rigid)) then
+        call correct_contact(run%model, run%contact, run%x, run%force, run%rigid%x, done, &
+            acting, status)
+      else
+        call correct_contact(run%model, run%contact, run%x, run%force, run%x_interface, done, &
+            acting, status)
+      end if
       if (done) return
       run%b = zero
-      call add_interface_forces(run, run%x_interface)
+      if (allocated(run%rigid)) then
+        call add_interface_forces(run, run%rigid%x)
+      else
+        call add_interface_forces(run, run%x_interface)
+      end if
       call add_correction(run)
       call refine_motion(run, stage)
     end do
@@ -125,6 +145,7 @@ contains
         run%b(:, i) = run%b(:, i) + force(:, k)
       end associate
     end do
+    if (allocated(run%rigid)) call gather_forces(run%model%rigid, run%rigid%lever, run%b)
   end subroutine add_interface_forces
 
   !> x = x + A^-1 b, held dofs kept.
@@ -134,6 +155,7 @@ contains
     call run%timers%enter(phase_solve)
     call solve_whole(run%solver, run%b, run%correction)
     run%x = run%x + run%correction
+    if (allocated(run%rigid)) call follow(run, run%x)
     run%solves = run%solves + 1
   end subroutine add_correction
 
@@ -162,6 +184,7 @@ contains
     if (run%system%any_fixed) call clear_fixed(run%system, run%b)
     call solve_whole(run%solver, run%b, run%scheme%free)
     run%scheme%free = run%x - run%scheme%free
+    if (allocated(run%rigid)) call follow(run, run%scheme%free)
     run%solves = run%solves + 1
   end subroutine find_free
 
@@ -174,20 +197,33 @@ contains
     run%force = zero
     if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
     call run%timers%enter(phase_contact)
-    call solve_contact(run%model, run%contact, run%state%u, run%state%v, run%x_interface, &
-        largest_work(run%ledger), run%force, acting, status)
+    if (allocated(run%rigid)) then
+      call spread_flexibility(run)
+      call spread_motion(run)
+      call solve_contact(run%model, run%contact, run%state%u, run%state%v, run%rigid%x, &
+          largest_work(run%ledger), run%force, acting, status)
+    else
+      call solve_contact(run%model, run%contact, run%state%u, run%state%v, run%x_interface, &
+          largest_work(run%ledger), run%force, acting, status)
+    end if
     if (run%plan%dump .and. acting) call dump_contact(run, status)
     call run%timers%enter(phase_solve)
     if (.not. acting) return
-    call clear_constrained(run%contact, run%force)
-    run%x_interface = run%b_interface + run%force
+    if (allocated(run%rigid)) then
+      run%x_interface = run%b_interface
+      call collect_forces(run, run%x_interface)
+    else
+      call clear_constrained(run%contact, run%force)
+      run%x_interface = run%b_interface + run%force
+    end if
     call run%solver%solve_schur(run%x_interface)
   end subroutine add_contact
 
-  !> The contact problem of the step as a file, where the deck asks for it.
+  !> The contact problem of the step as a file, where the deck asks for it, solved or not.
   subroutine dump_contact(run, status)
     type(run_t), intent(in) :: run
     type(status_t), intent(inout) :: status
+    type(status_t) :: writing
     character(24) :: name
     integer :: step
     step = run%state%cycle + 1
@@ -196,8 +232,9 @@ contains
       if (mod(step - c%dump_first, c%dump_every) /= 0) return
       write (name, '(a,i9.9,a)') 'contact_', step, '.txt'
       call write_contact_problem(join_path(run%folder, trim(name)), 'step '//to_text(step), &
-          p%w%matrix, p%q, p%mu, p%r, status)
+          p%w%matrix, p%q, p%mu, p%r, writing)
     end associate
+    if (.not. failed(status)) status = writing
   end subroutine dump_contact
 
   !> Loads at both ends of the step, and their weighted sum into b.

@@ -29,6 +29,7 @@ contains
     integer :: b, e, i
     call find_bodies(model, body)
     do b = 1, maxval(body(:model%nodes - model%bodies))
+      if (is_of_rigid(model, body, b)) cycle
       if (rigid_motions_held(model, system, body, b) == 3) cycle
       if (.not. allocated(shift)) allocate (shift(system%n), source=zero)
       size_2 = max(maxval(model%x(1, :), body == b) - minval(model%x(1, :), body == b), &
@@ -44,7 +45,50 @@ contains
         if (body(i) == b) shift(i) = factor*c_2/size_2*system%lumped(i)
       end do
     end do
+    if (allocated(model%rigid)) call shift_rigid_parts(model, system, shift, factor)
   end subroutine make_shift
+
+  !> Is body b made of nodes of a rigid part?
+  pure logical function is_of_rigid(model, body, b)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: body(:), b
+    is_of_rigid = .false.
+    if (.not. allocated(model%rigid)) return
+    is_of_rigid = any(body(model%rigid%node) == b) .or. any(body(model%mesh_nodes + 1:) == b)
+  end function is_of_rigid
+
+  !> Rigid parts that have a motion left: a force, that of all loads at their largest or, where
+  !> there are none, a share of the stiffness of the other parts, over a length of the scene: a
+  !> free pass moves a part about that far.
+  subroutine shift_rigid_parts(model, system, shift, factor)
+    type(model_t), intent(in) :: model
+    type(system_t), intent(in) :: system
+    real(wp), allocatable, intent(inout) :: shift(:)
+    real(wp), intent(in) :: factor
+    real(wp) :: force, extent
+    integer :: k, p
+    if (all(system%fixed(:, model%rigid%centre)) .and. &
+        all(system%fixed(:, model%rigid%rotor))) return
+    if (.not. allocated(shift)) allocate (shift(system%n), source=zero)
+    extent = maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
+    force = zero
+    do k = 1, size(model%load)
+      associate (l => model%load(k))
+        force = force + sum(abs(l%force))*abs(l%factor)*maxval(abs(model%curve(l%curve)%o))
+      end associate
+    end do
+    do k = 1, size(model%gravity)
+      associate (g => model%gravity(k))
+        force = force + sum(system%lumped(:system%heavy))*abs(g%factor) &
+            *maxval(abs(model%curve(g%curve)%o))
+      end associate
+    end do
+    if (.not. force > zero) force = factor*extent*max(maxval(system%stiffness), tiny(one))
+    do p = 1, size(model%rigid%part)
+      shift(model%rigid%centre(p)) = force/extent
+      shift(model%rigid%rotor(p)) = force/extent
+    end do
+  end subroutine shift_rigid_parts
 
   !> Bodies are what elements join: their number at each node.
   pure subroutine find_bodies(model, body)
@@ -180,6 +224,8 @@ contains
     do e = 1, run%model%elements
       if (any(run%model%connectivity(:, e) == i)) part = run%model%element_part(e)
     end do
+    if (i > run%model%mesh_nodes) part = run%model%rigid%part(1 + mod(i - &
+        run%model%mesh_nodes - 1, size(run%model%rigid%part)))
     is_of = .false.
     do e = 1, run%model%elements
       if (run%model%element_part(e) == part) is_of(run%model%connectivity(:, e)) = .true.

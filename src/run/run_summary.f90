@@ -159,7 +159,7 @@ contains
     type(json_t), intent(inout) :: json
     type(run_t), intent(in) :: run
     call json%open('{', 'scene')
-    call json%put(run%model%nodes - run%model%bodies, 'nodes')
+    call json%put(run%model%mesh_nodes, 'nodes')
     call json%put(run%model%elements, 'elements')
     call json%put(size(run%model%part), 'parts')
     call json%put(trim(run%model%controls%scheme), 'scheme')

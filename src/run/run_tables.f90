@@ -3,9 +3,11 @@
 module run_tables
   use base_status, only: status_t
   use deck_names, only: table_glstat, table_matsum, table_nodout, table_elout, &
-      table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing
+      table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, table_timing, &
+      table_rbdout
   use output_forces, only: write_rcforc, write_rwforc, write_sleout, write_ncforc, write_spcforc
-  use output_rows, only: write_glstat, write_matsum, write_nodout, write_elout, write_timing
+  use output_rows, only: write_glstat, write_matsum, write_nodout, write_elout, write_rbdout, &
+      write_timing
   use output_table, only: row_is_due, rows_done
   use contact_area, only: find_all_areas
   use contact_work, only: start_row
@@ -47,6 +49,8 @@ contains
         call write_nodout(file, writer, model, state, status)
       case (table_elout)
         call write_elout(file, writer, model, run%system, state, status)
+      case (table_rbdout)
+        call write_rbdout(file, writer, model, state, status)
       case (table_rcforc)
         call write_rcforc(file, writer, run%contact, time, status)
       case (table_rwforc)

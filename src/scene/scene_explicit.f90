@@ -77,6 +77,11 @@ contains
     factor = 0.9_wp
     r = deck%next('CONTROL_TIMESTEP', 1, 0)
     if (r > 0) factor = deck%real(r, 'TSSFAC')
+    if (controls%limit_element == 0) then
+      call add_problem(deck%problems, deck%file(1)%path//': all parts are rigid and set no '// &
+          'limit to the step: give DT0 of *CONTROL_IMPLICIT_GENERAL')
+      return
+    end if
     steps = controls%end_time/(factor*controls%step_limit)
     if (.not. steps < 2.0e9_wp) then
       call add_problem(deck%problems, deck%file(1)%path//': ENDTIM of *CONTROL_TERMINATION '// &
@@ -100,6 +105,7 @@ contains
     call make_element(4, element(4)%item)
     associate (c => model%controls)
       do e = 1, model%elements
+        if (model%part(model%element_part(e))%is_rigid) cycle
         n = node_count(model%connectivity(:, e))
         associate (part => model%part(model%element_part(e)))
           associate (material => model%material(part%material)%item)

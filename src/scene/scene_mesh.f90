@@ -29,6 +29,7 @@ contains
     call records_of(deck, 'NODE', 1, record)
     n = size(record)
     model%nodes = n
+    model%mesh_nodes = n
     allocate (model%node_id(n), model%x(2, n), model%v0(2, n), model%fixed(2, n))
     model%v0 = zero
     model%fixed = .false.

@@ -5,7 +5,7 @@ module scene_output
   use base_list, only: append
   use deck_data, only: deck_t
   use deck_names, only: table_keywords, table_count, table_nodout, table_elout, table_rcforc, &
-      table_rwforc, table_sleout, table_ncforc, table_spcforc
+      table_rwforc, table_sleout, table_ncforc, table_spcforc, table_rbdout
   use deck_problems, only: add_note
   use model_data, only: model_t, set_t
   use scene_ids, only: maps_t, id_map_t, find_or_complain
@@ -50,6 +50,8 @@ contains
       call drop_empty(deck, table_ncforc, 'contact', size(model%contact) == 0, r%interval)
       call drop_empty(deck, table_spcforc, 'supports', &
           .not. any(model%fixed) .and. size(model%motion) == 0, r%interval)
+      call drop_empty(deck, table_rbdout, '*MAT_RIGID', .not. any(model%part%is_rigid), &
+          r%interval)
     end associate
   end subroutine read_requests
 

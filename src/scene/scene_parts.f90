@@ -63,10 +63,12 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
     type(section_t), allocatable :: section(:)
-    integer, allocatable :: record(:)
+    integer, allocatable :: record(:), other(:)
     integer :: k, row
     call read_sections(deck, section, maps)
     call records_of(deck, 'PART', 2, record)
+    call records_of(deck, 'PART_INERTIA', 2, other)
+    record = [record, other]
     allocate (model%part(size(record)))
     do k = 1, size(record)
       associate (p => model%part(k))
@@ -92,6 +94,7 @@ contains
         p%material = maps%material%find(p%material_id)
         if (p%material == 0) call deck%complain(record(k), 'MID', 'material '// &
             to_text(p%material_id)//' is not defined', 'add a *MAT_ELASTIC with this number')
+        if (p%material > 0) p%is_rigid = model%material(p%material)%item%is_rigid
       end associate
     end do
     call make_id_map(deck, 'part', 'PID', model%part%id, record, maps%part)

@@ -62,7 +62,7 @@ contains
         ledger%mv(2, model%nodes))
     call find_owners(model, ledger)
     ledger%part_mass = zero
-    do i = 1, model%nodes
+    do i = 1, model%mesh_nodes
       if (ledger%owner(i) <= 0) cycle
       ledger%part_mass(ledger%owner(i)) = ledger%part_mass(ledger%owner(i)) + system%lumped(i)
     end do
@@ -71,6 +71,7 @@ contains
         m = m + ledger%share(k)*system%lumped(ledger%shared(1, k))
       end associate
     end do
+    if (allocated(model%rigid)) ledger%part_mass(model%rigid%part) = model%rigid%mass
     call evaluate_ledger(model, system, state, ledger)
     ledger%initial = ledger%total
     ledger%worst_residual = zero
@@ -129,7 +130,7 @@ contains
     ledger%part_kinetic = zero
     ledger%part_momentum = zero
     moment = zero
-    do i = 1, model%nodes
+    do i = 1, model%mesh_nodes
       moment = moment + (model%x(1, i)*ledger%mv(2, i) - model%x(2, i)*ledger%mv(1, i))
       if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v(:, i), i)
     end do
@@ -137,6 +138,7 @@ contains
       i = ledger%shared(1, k)
       call add_node(ledger, ledger%shared(2, k), ledger%share(k), state%v(:, i), i)
     end do
+    if (allocated(model%rigid)) call add_rigid_parts(model, state, ledger, moment)
     ledger%angular = moment
     ledger%momentum = sum(ledger%part_momentum, dim=2)
     ledger%kinetic = sum(ledger%part_kinetic)
@@ -202,6 +204,29 @@ contains
     ledger%part_kinetic(part) = ledger%part_kinetic(part) + half*(v(1)*p(1) + v(2)*p(2))
     ledger%part_momentum(:, part) = ledger%part_momentum(:, part) + p
   end subroutine add_node
+
+  !> Centres and rotors of rigid parts: their energies, and momenta about the origin, of the
+  !> centres where they are.
+  pure subroutine add_rigid_parts(model, state, ledger, moment)
+    type(model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    type(ledger_t), intent(inout) :: ledger
+    real(wp), intent(inout) :: moment
+    real(wp) :: x(2)
+    integer :: p
+    associate (rigid => model%rigid)
+      do p = 1, size(rigid%part)
+        associate (c => rigid%centre(p), r => rigid%rotor(p), part => rigid%part(p))
+          call add_node(ledger, part, one, state%v(:, c), c)
+          x = model%x(:, c) + state%u(:, c)
+          moment = moment + (x(1)*ledger%mv(2, c) - x(2)*ledger%mv(1, c)) &
+              + rigid%radius(p)*ledger%mv(1, r)
+          ledger%part_kinetic(part) = ledger%part_kinetic(part) &
+              + half*state%v(1, r)*ledger%mv(1, r)
+        end associate
+      end do
+    end associate
+  end subroutine add_rigid_parts
 
   !> total, residual and ratio from the terms.
   pure subroutine balance(ledger)

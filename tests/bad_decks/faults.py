@@ -18,13 +18,16 @@ CURVE = "*DEFINE_CURVE\n1,\n0.0,1.0\n0.1,1.0\n"
 EXPRESSION = "*PARAMETER_EXPRESSION\n"
 EXPLICIT = "PAOLI,,,,,,0.0"
 PARAMETER = "Rtend           0.01Rdt            1e-03"
+RIGID = ("*MAT_ELASTIC\n" + MATERIAL, "*MAT_RIGID\n         1     0.001\n\n")
+HELD = ("*MAT_ELASTIC\n" + MATERIAL, "*MAT_RIGID\n         1     0.001\n       1.0         1\n")
+MOTION = "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,1,0,1\n"
 BASE_FAULTS = [
     # the frame
     ("unknown keyword", "*DATABASE_GLSTAT", "*DATABASE_GLSTATS"),
     ("unknown option", "*CONTROL_TERMINATION", "*CONTROL_TERMINATION_FOO"),
     ("nonsense keyword", "*END", "*XYZZY_PLUGH\n*END"),
     ("keyword of a refused family misspelt", "*SET_NODE_LIST", "*SET_NODE_LSIT"),
-    ("refused keyword", "*END", "*MAT_RIGID\n*END"),
+    ("refused keyword", "*END", "*MAT_BLATZ-KO_RUBBER\n*END"),
     ("refused family", "*END", "*CONSTRAINED_JOINT_REVOLUTE\n*END"),
     ("three-dimensional contact", "*END", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n*END"),
     ("solid element", "*END", "*ELEMENT_SOLID\n*END"),
@@ -486,6 +489,37 @@ BASE_FAULTS = [
     ("history of nobody", "*END", "*DATABASE_HISTORY_NODE\n        77\n*END"),
     ("history of no element", "*END", "*DATABASE_HISTORY_SHELL\n        77\n*END"),
     ("several at once", "     0.001    1000.0       0.3", "      zero   -1000.0       0.7"),
+    # rigid parts
+    ("support of rigid nodes", *RIGID, "*END", "*BOUNDARY_SPC_NODE\n1,,1\n*END"),
+    ("force on a rigid node", *RIGID, "*END", CURVE + "*LOAD_NODE_POINT\n1,1,1\n*END"),
+    (
+        "motion of a rigid node",
+        *RIGID,
+        "*END",
+        CURVE + "*BOUNDARY_PRESCRIBED_MOTION_NODE\n1,1,0,1\n*END",
+    ),
+    ("velocity of no rigid part", "*END", "*INITIAL_VELOCITY_RIGID_BODY\n1,1.0\n*END"),
+    ("two velocities of a rigid part", *RIGID, "*END", "*INITIAL_VELOCITY_RIGID_BODY\n1,1.0\n1,2.0\n*END"),
+    ("velocities that strain a rigid part", *RIGID, "         1         2         3         4", "         1         2"),
+    ("force on no part", *RIGID, "*END", CURVE + "*LOAD_RIGID_BODY\n7,1,1\n*END"),
+    ("force across the plane", *RIGID, "*END", CURVE + "*LOAD_RIGID_BODY\n1,3,1\n*END"),
+    ("motion of a held rigid part", *HELD, "*END", CURVE + MOTION + "*END"),
+    ("two motions of a rigid part", *RIGID, "*END", CURVE + MOTION + MOTION + "*END"),
+    ("acceleration of a rigid part", *RIGID, "*END", CURVE + MOTION.replace(",0,", ",1,") + "*END"),
+    ("inertia of a deformable part", "*PART\nblock\n         1         1         1", "*PART_INERTIA\nblock\n1,1,1\n0.5,0.5,,1.0\n,,,,,1.0\n"),
+    ("inertia without a mass", *RIGID, "*PART\nblock\n         1         1         1", "*PART_INERTIA\nblock\n1,1,1\n0.5,0.5\n,,,,,1.0\n"),
+    ("a rigid part joins itself", *RIGID, "*END", "*CONSTRAINED_RIGID_BODIES\n1,1\n*END"),
+    (
+        "a node of a rigid and a deformable part",
+        ELEMENT,
+        ELEMENT + "\n       2       2       2       5       6       3",
+        "       4             0.0             1.0",
+        "       4             0.0             1.0\n       5             2.0             0.0\n       6             2.0             1.0",
+        "*SECTION_SHELL",
+        "*PART\nrigid\n         2         1         2\n*MAT_RIGID\n         2     0.001\n\n\n*SECTION_SHELL",
+    ),
+    ("explicit step of rigid parts", *RIGID, "     THETA       0.5", "CDLAGRANGE", "         1       &dt", "         1"),
+    ("local constraints", *RIGID, "*MAT_RIGID\n         1     0.001\n", "*MAT_RIGID\n         1     0.001\n      -1.0"),
 ]
 
 CONTACT = "        11        12"

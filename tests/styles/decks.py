@@ -238,12 +238,10 @@ add(
 )
 add(
     "filled: rigid bodies",
-    "refused",
+    "runs",
     filled,
-    more=[
-        ("MAT_RIGID", [[7, 1.0, 1.0, 0.3], {}, {}], "tool"),
-        ("BOUNDARY_PRESCRIBED_MOTION_RIGID", [[1, 1, 0, 1]]),
-    ],
+    left_material=("MAT_RIGID", [[1, 0.001, 1000.0, 0.3], {}, {}], "tool"),
+    more=("BOUNDARY_PRESCRIBED_MOTION_RIGID", [[1, 1, 0, 1]]),
 )
 add(
     "filled: plasticity",
