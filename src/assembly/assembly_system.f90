@@ -331,6 +331,9 @@ contains
     type(block_matrix_t), intent(inout) :: matrix
     real(wp) :: ke(8, 8)
     integer :: i, j, k
+    if (allocated(system%idle)) then    ! an element of a rigid part: not on the graph
+      if (.not. any(abs(system%stiffness(:, :, e)) > zero)) return
+    end if
     ke(3:8, 3:8) = factor*system%stiffness(:, :, e)
     do i = 1, 2
       ke(i, 3:8) = -(ke(i + 2, 3:8) + ke(i + 4, 3:8) + ke(i + 6, 3:8))

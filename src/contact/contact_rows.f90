@@ -394,9 +394,15 @@ contains
     real(wp) :: force(2)
     integer :: k
     force = factor*row_force(rows, a)
+    if (rows%kind(a) == row_guided) then   ! the guide of the wall takes what acts across
+      associate (node => column(rows%first(a)), wall => column(rows%first(a) + 1))
+        f(:, node) = f(:, node) + force
+        f(:, wall) = f(:, wall) - factor*rows%r(1, a)*rows%normal(:, a)
+      end associate
+      return
+    end if
     do k = rows%first(a), rows%first(a + 1) - 1
       f(:, column(k)) = f(:, column(k)) + rows%weight(k)*force
-      if (rows%kind(a) == row_guided) force = factor*rows%r(1, a)*rows%normal(:, a)
     end do
   end subroutine add_row_force
 
@@ -418,8 +424,8 @@ contains
       dof(n + 1:n + 2) = [2*rows%slot(k) - 1, 2*rows%slot(k)]
       weight(n + 1:n + 2) = rows%weight(k)*e
       n = n + 2
-      if (component == 2 .and. rows%kind(a) == row_guided) exit   ! the wall's guide holds it
     end do
+    if (component == 2 .and. rows%kind(a) == row_guided) n = 2   ! its guide holds the wall
   end subroutine row_of_h
 
 end module contact_rows
