@@ -612,8 +612,8 @@ class StickSlip:
 
 
 def mass_on_rod(impedance, mass, velocity, t):
-    """Force [F] of a rigid mass that strikes the end of a rod at rest: Z V exp(-Z t/M), until the
-    wave comes back from the other end at 2 L/c (Saint-Venant 1883; Goldsmith 1960)."""
+    """Force [F] of a rigid mass that strikes the end of a rod at rest: Z V exp(-Z t/M), until
+    the wave comes back from the other end at 2 L/c (Saint-Venant 1883; Goldsmith 1960)."""
     return impedance * velocity * np.exp(-impedance * np.asarray(t) / mass)
 
 
