@@ -619,12 +619,13 @@ def mass_on_rod(impedance, mass, velocity, t):
 
 @dataclass(frozen=True)
 class GlidingBlock:
-    """A stiff block that glides without friction on its two lower corners in a bowl, small swings.
+    """A stiff block that glides without friction on its two lower corners in a bowl, small
+    swings.
 
     It turns about the centre of the bowl, with the inertia I about it. Its corners are at depth
-    d = sqrt(R^2 - a^2). A rigid body has its centre raised by (d - H/2) phi^2/2; in the kinematics
-    of small displacements a turn is phi e_z x X, which makes the block larger, and the corners
-    stay on the circle when it is raised by R^2 phi^2/(2 d) as a whole."""
+    d = sqrt(R^2 - a^2). A rigid body has its centre raised by (d - H/2) phi^2/2; in the
+    kinematics of small displacements a turn is phi e_z x X, which makes the block larger, and
+    the corners stay on the circle when it is raised by R^2 phi^2/(2 d) as a whole."""
 
     radius: float = 2.0  # R [L]
     half_width: float = 0.5  # a
@@ -652,8 +653,8 @@ class GlidingBlock:
 
 @dataclass(frozen=True)
 class Belt:
-    """A rigid block at rest on a belt that runs at V: friction mu m g drives it until it has the
-    velocity of the belt, at V/(mu g) (Coulomb)."""
+    """A rigid block at rest on a belt that runs at V: friction mu m g drives it until it has
+    the velocity of the belt, at V/(mu g) (Coulomb)."""
 
     speed: float = 1.0  # V [L T-1]
     mu: float = 0.2
@@ -718,8 +719,9 @@ class Hertz:
 
 @dataclass(frozen=True)
 class Westergaard:
-    """A wave of amplitude D and length l pressed on a flat face by a mean pressure below that of
-    full contact, p* = pi E* D/l, D half of its height (Westergaard 1939; Johnson 1985, 13.2)."""
+    """A wave of amplitude D and length l pressed on a flat face by a mean pressure below that
+    of full contact, p* = pi E* D/l, D half of its height (Westergaard 1939; Johnson 1985,
+    13.2)."""
 
     wave: float  # l [L]
     full: float  # p* [F L-2]
@@ -737,8 +739,8 @@ class Westergaard:
 
 
 def punch_force(load, share):
-    """Force [F L-1] on |x| < share a of a flat punch without friction, p = P/(pi sqrt(a^2 - x^2))
-    (Sadowsky 1928): 2 P asin(share)/pi."""
+    """Force [F L-1] on |x| < share a of a flat punch without friction, p = P/(pi sqrt(a^2 -
+    x^2)) (Sadowsky 1928): 2 P asin(share)/pi."""
     return 2.0 * load * np.arcsin(share) / np.pi
 
 
