@@ -86,8 +86,12 @@ contains
     type(model_t), intent(in) :: model
     type(plan_t), intent(inout) :: plan
     associate (c => model%controls)
-      call add_feature(plan, 'explicit', .true., 'DT0 = '//to_text(c%dt/c%step_limit)// &
-          ' of the limit, '//to_text(c%step_limit)//', of element '//to_text(c%limit_element))
+      if (c%limit_element > 0) then
+        call add_feature(plan, 'explicit', .true., 'DT0 = '//to_text(c%dt/c%step_limit)// &
+            ' of the limit, '//to_text(c%step_limit)//', of element '//to_text(c%limit_element))
+      else
+        call add_feature(plan, 'explicit', .true., 'all parts are rigid: no limit of the step')
+      end if
       if (c%static_until > zero) then
         call add_feature(plan, 'factor', .true., 'of the static phase alone')
       else

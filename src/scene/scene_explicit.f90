@@ -52,6 +52,8 @@ contains
     associate (c => model%controls)
       if (.not. c%dt > zero) then
         call choose_step(deck, c)
+      else if (c%limit_element == 0) then
+        return    ! rigid parts alone set no limit
       else if (c%dt > c%step_limit*(one + slack)) then
         r = deck%next('CONTROL_IMPLICIT_GENERAL', 1, 0)
         call deck%complain(r, 'DT0', 'expected at most '//limit_text(c)// &
