@@ -86,7 +86,7 @@ contains
     real(wp), intent(in) :: t1
     type(status_t), intent(inout) :: status
     integer :: stage
-    logical :: acting, again
+    logical :: acting
     if (run%plan%damping) call prepare_damping(run, t1, status)
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
@@ -96,10 +96,7 @@ contains
       if (stage > 1 .and. run%scheme%stage(stage)%only_in_contact .and. .not. acting) exit
       if (allocated(run%other)) call use_operator(run, stage)
       run%contact%rule = run%scheme%stage(stage)%rule
-      call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, stage, status)
-      if (run%plan%contact) call look_back(run, stage, again, status)
-      if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
+      call solve_listed(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       call run%timers%enter(phase_update)
       if (run%plan%damping) call keep_damping(run, stage)
@@ -122,7 +119,7 @@ contains
     logical, intent(inout) :: acting
     type(status_t), intent(inout) :: status
     integer :: pass
-    logical :: is_done, again
+    logical :: is_done
     pass = 1
     run%x_pass = zero
     run%move = zero
@@ -130,10 +127,7 @@ contains
       call check_pass(run, pass, is_done, status)
       if (is_done .or. failed(status)) exit
       pass = pass + 1
-      call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, stage, status)
-      if (run%plan%contact) call look_back(run, stage, again, status)
-      if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
+      call solve_listed(run, stage, t1, acting, status)
     end do
     run%x_pass = zero
   end subroutine find_equilibrium
@@ -166,16 +160,22 @@ contains
         + half*mass_product(run%system, run%state%v, run%state%v)
   end subroutine end_static_phase
 
-  !> The stage once more, with longer lists.
-  subroutine solve_again(run, stage, t1, acting, status)
+  !> The stage; once more with longer lists where its motion has outrun those that there were.
+  subroutine solve_listed(run, stage, t1, acting, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
+    logical :: again
     call solve_stage(run, stage, t1, acting, status)
     call check_finite(run, stage, status)
-  end subroutine solve_again
+    if (.not. run%plan%contact) return
+    call look_back(run, stage, again, status)
+    if (.not. again) return
+    call solve_stage(run, stage, t1, acting, status)
+    call check_finite(run, stage, status)
+  end subroutine solve_listed
 
   !> The step and its time, for messages.
   function moment(run) result(text)
