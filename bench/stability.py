@@ -190,7 +190,7 @@ def faults(folder, c, data, log):
     # Where faces have slid from each other, nodes may sink 1e-3 of an edge besides (README,
     # Limits).
     if data["mu"] > 0.0:
-        allowed += 1.0e-3 * data.get("edge", 0.0))
+        allowed += 1.0e-3 * data.get("edge", 0.0)
     if c["method"] in VELOCITIES:
         allowed += data["way"]
     if -np.min(force["gapmin"]) > allowed:
