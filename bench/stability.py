@@ -192,10 +192,10 @@ def faults(folder, c, data, log):
     # Velocities are those that the energy allows, which a scheme may have raised.
     faster = math.sqrt(max(1.0, np.max(glstat["kinetic"]) / (glstat["kinetic"][0] or np.inf)))
     allowed = 0.5 * faster * data["way"] + 100.0 * 2.3e-16 * (10.0 + data["way"] * len(glstat))
-    # Where faces have slid from each other, nodes may sink 1e-3 of an edge (README, Limits), in
-    # the frame of the start of the step; between faces with multipliers more.
+    # Where faces have slid from each other, nodes may sink 1e-3 of an edge besides (README,
+    # Limits), in the frame of the start of the step; between faces with multipliers more.
     if data["mu"] > 0.0:
-        allowed = max(allowed, data.get("sink", 1.05e-3 * data.get("edge", 0.0)))
+        allowed += data.get("sink", 1.0e-3 * data.get("edge", 0.0))
     if c["method"] in VELOCITIES:
         allowed += data["way"]
     if -np.min(force["gapmin"]) > allowed:

@@ -157,12 +157,12 @@ class Sweep:
     def run_all(self, jobs, fresh):
         """Runs what is not finished. Returns {combination: how it ended without a summary}, and
         whether the sweep was interrupted."""
-        todo = [c for c in self.combinations if fresh or not self.is_finished(c)]
-        self.total = len(todo)
-        if len(todo) < len(self.combinations):
+        remaining = [c for c in self.combinations if fresh or not self.is_finished(c)]
+        self.total = len(remaining)
+        if len(remaining) < len(self.combinations):
             print("%d finished before" % (len(self.combinations) - self.total), file=sys.stderr)
         with ThreadPoolExecutor(jobs) as pool:
-            futures = {c: pool.submit(self.run, c) for c in todo}
+            futures = {c: pool.submit(self.run, c) for c in remaining}
             try:
                 for future in futures.values():
                     future.result()

@@ -87,7 +87,7 @@ contains
     real(wp), intent(in) :: t1
     type(status_t), intent(inout) :: status
     integer :: stage
-    logical :: acting, again
+    logical :: acting
     if (run%plan%damping) call prepare_damping(run, t1, status)
     if (run%plan%motions) call prepare_motions(run, t1, status)
     if (run%plan%contact) call prepare_contact(run, t1, status)
@@ -99,10 +99,7 @@ contains
       if (allocated(run%other)) call use_operator(run, stage)
       run%contact%rule = run%scheme%stage(stage)%rule
       run%contact%step_length = run%scheme%h
-      call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, stage, status)
-      if (run%plan%contact) call look_back(run, stage, again, status)
-      if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
+      call solve_listed(run, stage, t1, acting, status)
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       if (allocated(run%rigid) .and. stage == 1 .and. .not. allocated(run%shift)) &
           call find_turns(run, stage, t1, acting, status)
@@ -131,16 +128,13 @@ contains
     type(status_t), intent(inout) :: status
     integer, parameter :: most_passes = 50
     integer :: pass
-    logical :: again, outrun
+    logical :: again
     do pass = 1, most_passes
       if (failed(status)) return
       call renew_levers(run, again)
       if (.not. again) return
       run%rigid%passes = run%rigid%passes + 1
-      call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, stage, status)
-      call look_back(run, stage, outrun, status)
-      if (outrun) call solve_again(run, stage, t1, acting, status)
+      call solve_listed(run, stage, t1, acting, status)
     end do
     call fail(status, status_numerical, 'rigid parts turn too far in the step: its turns '// &
         'are not found', place=moment(run), hint='take a smaller step')
@@ -166,10 +160,7 @@ contains
       end if
       if (is_done .or. failed(status)) exit
       pass = pass + 1
-      call solve_stage(run, stage, t1, acting, status)
-      call check_finite(run, stage, status)
-      if (run%plan%contact) call look_back(run, stage, again, status)
-      if (run%plan%contact .and. again) call solve_again(run, stage, t1, acting, status)
+      call solve_listed(run, stage, t1, acting, status)
     end do
     run%x_pass = zero
   end subroutine find_equilibrium
@@ -202,16 +193,22 @@ contains
         + half*mass_product(run%system, run%state%v, run%state%v)
   end subroutine end_static_phase
 
-  !> The stage once more, with longer lists.
-  subroutine solve_again(run, stage, t1, acting, status)
+  !> The stage; once more with longer lists where its motion has outrun those that there were.
+  subroutine solve_listed(run, stage, t1, acting, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
+    logical :: again
     call solve_stage(run, stage, t1, acting, status)
     call check_finite(run, stage, status)
-  end subroutine solve_again
+    if (.not. run%plan%contact) return
+    call look_back(run, stage, again, status)
+    if (.not. again) return
+    call solve_stage(run, stage, t1, acting, status)
+    call check_finite(run, stage, status)
+  end subroutine solve_listed
 
   !> The step and its time, for messages.
   function moment(run) result(text)

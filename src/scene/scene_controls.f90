@@ -82,7 +82,8 @@ contains
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(in) :: controls
     character(:), allocatable :: why
-    character(*), parameter :: hint = 'explicit runs name SCHEME PAOLI with PBETA 0 on '// &
+    character(*), parameter :: hint = 'explicit runs name SCHEME CDLAGRANGE, or PAOLI '// &
+        'with PBETA 0, on '// &
         '*BIPACT_TIME'
     integer :: r
     why = 'scheme '//trim(controls%scheme)//' of *BIPACT_TIME is implicit'

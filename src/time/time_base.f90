@@ -132,7 +132,7 @@ module time_base
     end function given_motion_i
   end interface
 
-  public :: mass_product
+  public :: mass_product, make_stage_work
 
 contains
 
@@ -143,6 +143,17 @@ contains
     integer, intent(in) :: cycle
     real(wp), intent(in) :: h_last
   end subroutine nothing_to_begin
+
+  !> The motions of both stages of a scheme, zero, for n nodes.
+  pure subroutine make_stage_work(n, stage_work)
+    integer, intent(in) :: n
+    type(motion_t), allocatable, intent(out) :: stage_work(:)
+    integer :: k
+    allocate (stage_work(2))
+    do k = 1, 2
+      allocate (stage_work(k)%x(2, n), source=zero)
+    end do
+  end subroutine make_stage_work
 
   !> x.M y [F L for velocities].
   pure real(wp) function mass_product(system, x, y)

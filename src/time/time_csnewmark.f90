@@ -13,7 +13,7 @@ module time_csnewmark
   use contact_rule, only: contact_rule_t
   use model_data, only: model_t, motion_displacement
   use model_state, only: state_t
-  use time_base, only: scheme_t, stage_t
+  use time_base, only: scheme_t, stage_t, make_stage_work
   implicit none
   private
 
@@ -48,14 +48,10 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    integer :: k
-    allocate (this%xp(2, system%n), this%stage_work(2))
+    allocate (this%xp(2, system%n))
     this%xp = zero
     if (allocated(system%damping)) allocate (this%rate(2, system%n), source=zero)
-    do k = 1, 2
-      allocate (this%stage_work(k)%x(2, system%n))
-      this%stage_work(k)%x = zero
-    end do
+    call make_stage_work(system%n, this%stage_work)
   end subroutine csnewmark_start
 
   subroutine csnewmark_right_side(this, stage, system, state, b)

@@ -17,7 +17,7 @@ module time_nsgenalpha
   use model_data, only: model_t, motion_displacement, motion_velocity
   use model_state, only: state_t
   use time_alpha, only: alpha_t, generalised_alpha
-  use time_base, only: stage_t
+  use time_base, only: stage_t, make_stage_work
   implicit none
   private
 
@@ -62,18 +62,14 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    integer :: k
     ! The smooth forces alone are not in balance after a static phase either.
     this%starts_in_balance = .false.
     this%looks_ahead = .false.
     call this%alpha_t%start(model, system, state, status)
     state%a_smooth = state%a
-    allocate (this%free(2, system%n), this%stage_work(2))
+    allocate (this%free(2, system%n))
     this%free = zero
-    do k = 1, 2
-      allocate (this%stage_work(k)%x(2, system%n))
-      this%stage_work(k)%x = zero
-    end do
+    call make_stage_work(system%n, this%stage_work)
   end subroutine nsgenalpha_start
 
   !> a* [L/T2], U* - U0 [L], V* [L/T] of one dof.

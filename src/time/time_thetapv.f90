@@ -12,7 +12,7 @@ module time_thetapv
   use contact_rule, only: contact_rule_t, level_pressed
   use model_data, only: model_t
   use model_state, only: state_t
-  use time_base, only: stage_t
+  use time_base, only: stage_t, make_stage_work
   use time_theta, only: theta_t
   implicit none
   private
@@ -44,13 +44,8 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    integer :: k
     call this%theta_t%start(model, system, state, status)
-    allocate (this%stage_work(2))
-    do k = 1, 2
-      allocate (this%stage_work(k)%x(2, system%n))
-      this%stage_work(k)%x = zero
-    end do
+    call make_stage_work(system%n, this%stage_work)
   end subroutine thetapv_start
 
   !> The projection starts from V1: nothing is on its right-hand side but impulses.
