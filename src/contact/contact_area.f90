@@ -94,7 +94,7 @@ contains
         node(k) = before + own%index(own%end_node(k, e))
       end do
       if (.not. (nodal%is_near(node(1)) .or. nodal%is_near(node(2)))) cycle
-      thickness = thickness_of(model, own%part(e))
+      thickness = model%part(own%part(e))%thickness
       n = 0
       if (.not. is_wall) &
           call covering(own, other, e, model%x, u, nodal%low, nodal%high, n)
@@ -108,16 +108,6 @@ contains
       if (nodal%area(k) < 1.0e-3_wp*nodal%around(k)) nodal%area(k) = nodal%around(k)
     end do
   end subroutine cover_side
-
-  pure real(wp) function thickness_of(model, part)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: part
-    integer :: p
-    thickness_of = one
-    do p = 1, size(model%part)
-      if (model%part(p)%id == part) thickness_of = model%part(p)%thickness
-    end do
-  end function thickness_of
 
   !> Parts of edge e, in its local coordinate, that edges of the other side cover: those that
   !> face it within half an edge.

@@ -606,10 +606,14 @@ def single_surface():
 # 9. Pressures on nodes.
 
 
-def pressed_squares(upper=3, lower=3, margin=0.0, order=(1, 2), held=False, pressure=8.0):
+def pressed_squares(
+    upper=3, lower=3, margin=0.0, order=(1, 2), held=False, pressure=8.0, thickness=1.0
+):
     """A block under a uniform pressure on another; no Poisson ratio, so the pressure is the same
     everywhere. margin: how much the lower body is wider."""
-    scene = Scene(dt=0.01, steps=300, theta=1.0, every=0.1)
+    scene = Scene(
+        dt=0.01, steps=300, theta=1.0, every=0.1, before=order[0] // 10 * 10, thickness=thickness
+    )
     block = scene.body(upper, 2, box(0.0, 0.0, 0.9, 0.8), poisson=0.0, density=1.0)
     base = scene.body(
         lower, 2, box(-margin, -0.8, 0.9 + 2 * margin, 0.8), poisson=0.0, density=1.0
@@ -646,6 +650,7 @@ def contact_pressure():
     for name, scene in (
         ("equal squares", pressed_squares()),
         ("equal squares, other order", pressed_squares(order=(2, 1))),
+        ("thin squares", pressed_squares(order=(11, 12), thickness=0.25)),
         ("wider plate, held", pressed_squares(3, 4, 0.37, held=True)),
         ("wider plate, held, other order", pressed_squares(3, 4, 0.37, (2, 1), held=True)),
         ("plate whose nodes match, held", pressed_squares(3, 5, 0.3, held=True)),

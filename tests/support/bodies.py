@@ -40,9 +40,13 @@ class Body:
 
 
 class Scene:
-    """Bodies and cards that become a deck. Part k is also part set k. mirror: x becomes -x."""
+    """Bodies and cards that become a deck. Part k is also part set k; parts count from above
+    `before`. mirror: x becomes -x."""
 
-    def __init__(self, dt=1.0e-4, steps=200, theta=0.5, mirror=False, every=None):
+    def __init__(
+        self, dt=1.0e-4, steps=200, theta=0.5, mirror=False, every=None, before=0, thickness=1.0
+    ):
+        self.before, self.thickness = before, thickness
         self.dt, self.steps, self.theta, self.mirror = dt, steps, theta, mirror
         self.every = every or dt
         self.place, self.bodies, self.cards, self.head, self.sets = [], [], [], [], 100
@@ -65,7 +69,7 @@ class Scene:
         """A part from nx by ny cells; shape maps the unit square to the plane, keep(i, j) tells
         which cells there are; ring: nodes of a single element in their place; glue: a body whose
         nodes are taken where they are in the same place."""
-        body = Body(len(self.bodies) + 1, {})
+        body = Body(self.before + len(self.bodies) + 1, {})
         if ring:
             body.at = {(k, 0): self.node(*p) for k, p in enumerate(ring)}
             cells = [[body.at[k, 0] for k in range(len(ring))]]
@@ -146,7 +150,7 @@ class Scene:
                 element += 1
                 four = ring if len(ring) == 4 else ring + ring[-1:]
                 out += ["%d,%d,%d,%d,%d,%d" % (element, body.part, *four)]
-        out += ["*SECTION_SHELL", "1,13,,4", "1.0,"]
+        out += ["*SECTION_SHELL", "1,13,,4", "%r," % self.thickness]
         for body, material in zip(self.bodies, self.materials):
             out += ["*PART", "part", "%d,1,%d" % (body.part, body.part)]
             out += ["*MAT_ELASTIC", "%d,%r,%r,%r" % (body.part, *material)]
