@@ -9,7 +9,7 @@ module assembly_bending
   use base_kinds, only: wp, zero, one, half
   use element_bending, only: mode_amplitude, quad_mode_energy, pair_mode_energy, &
       bending_energy
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   implicit none
   private
 
@@ -52,7 +52,7 @@ contains
     type(model_t), intent(in) :: model
     type(bending_t), intent(out) :: bending
     real(wp) :: d(3, 3)
-    integer :: p, n
+    integer :: e, p, n
     n = size(model%part)
     allocate (bending%moduli(3, n), bending%now(n), bending%sum(n), bending%largest(n), &
         bending%step(n))
@@ -66,7 +66,7 @@ contains
       end associate
       bending%moduli(:, p) = [d(1, 1), d(3, 3), d(1, 1) - d(1, 2)*d(2, 1)/d(2, 2)]
     end do
-    n = count(model%connectivity(3, :) == model%connectivity(4, :))
+    n = count([(model%mesh%is_of_type(e, 'TRI3'), e=1, model%mesh%n)])
     if (n > 0) call pair_triangles(model, n, bending%pair)
   end subroutine make_bending
 
@@ -104,12 +104,12 @@ contains
     integer, intent(out) :: edge(:, :)
     integer :: e, k, n
     n = 0
-    do e = 1, model%elements
-      associate (c => model%connectivity(:, e))
-        if (node_count(c) /= 3) cycle
+    do e = 1, model%mesh%n
+      associate (c => model%mesh%nodes_of(e))
+        if (size(c) /= 3) cycle
         do k = 1, 3
           n = n + 1
-          edge(:, n) = [c(k), c(1 + mod(k, 3)), c(1 + mod(k + 1, 3)), model%element_part(e)]
+          edge(:, n) = [c(k), c(1 + mod(k, 3)), c(1 + mod(k + 1, 3)), model%mesh%part(e)]
         end do
       end associate
     end do
@@ -173,9 +173,9 @@ contains
     bending%peak = max(bending%peak, sum(strain))
     bending%now = bending_sums_t()
     bending%now%strain = strain
-    do e = 1, model%elements
-      if (node_count(model%connectivity(:, e)) == 3) cycle
-      p = model%element_part(e)
+    do e = 1, model%mesh%n
+      if (model%mesh%count_of(e) == 3) cycle
+      p = model%mesh%part(e)
       call add_quadrilateral(model, system, e, bending%moduli(3, p), u, bending%now(p))
     end do
     if (allocated(bending%pair)) then
@@ -206,9 +206,12 @@ contains
     real(wp), intent(in) :: modulus, u(:, :)
     type(bending_sums_t), intent(inout) :: sums
     real(wp) :: a(2), x(2, 4)
-    call find_amplitude(model, model%connectivity(:, e), u, x, a)
-    call add_modes(quad_mode_energy(system%stiffness(:, :, e), a), &
-        bending_energy(x, a, modulus), sums)
+    call find_amplitude(model, model%mesh%nodes_of(e), u, x, a)
+    associate (block => system%block(system%block_of(e)))
+      if (block%is_rigid) return
+      call add_modes(quad_mode_energy(block%stiffness(:, :, e - block%first + 1), a), &
+          bending_energy(x, a, modulus), sums)
+    end associate
   end subroutine add_quadrilateral
 
   !> Adds the modes of two triangles.

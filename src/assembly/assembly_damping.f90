@@ -33,7 +33,7 @@ contains
     end do
     associate (c => system%damping)
       do d = 1, 2
-        call assemble_mass(model, system%element, system%graph, c%first, c%target, &
+        call assemble_mass(model, system%graph, c%first, c%target, &
             weight(:, d), mass)
         if (system%mass_is_diagonal) then
           c%mass(d, :) = [(mass(system%graph%position(i, i)), i=1, system%n)]

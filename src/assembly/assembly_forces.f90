@@ -3,7 +3,8 @@
 !> K U and U.K U would lose digits to the rigid motion of the bodies (1e-9 of the energy per
 !> step for a stiff bar in flight); relative displacements of an element do not.
 module assembly_forces
-  use base_kinds, only: wp, zero, half
+  use base_kinds, only: wp, zero, one, half
+  use assembly_blocks, only: element_block_t
   use assembly_system, only: system_t
   use model_data, only: model_t, curve_value
   implicit none
@@ -14,14 +15,18 @@ module assembly_forces
 
 contains
 
-  !> f = f - factor * K u, element by element; u, f (2, n).
+  !> f = f - factor * K u, element by element; u, f (dim, n).
   subroutine subtract_internal_force(system, factor, u, f)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
-    call internal_kernel(size(system%node, 2), system%n, system%node, system%stiffness, &
-        factor, u, f)
+    integer :: b
+    do b = 1, size(system%block)
+      if (system%block(b)%is_rigid) cycle
+      call subtract_block(system, system%block(b), 1, size(system%block(b)%node, 2), factor, &
+          u, f)
+    end do
   end subroutine subtract_internal_force
 
   !> f = f - factor * C u; u, f (2, n).
@@ -42,14 +47,32 @@ contains
     real(wp), intent(inout) :: f(:, :)
     integer :: k
     do k = 1, size(elements)
-      associate (e => elements(k))
-        call internal_kernel(1, system%n, system%node(:, e), system%stiffness(:, :, e), &
-            factor, u, f)
+      associate (block => system%block(system%block_of(elements(k))))
+        if (block%is_rigid) cycle
+        call subtract_block(system, block, elements(k) - block%first + 1, 1, factor, u, f)
       end associate
     end do
   end subroutine subtract_element_forces
 
-  pure subroutine internal_kernel(elements, n, node, k, factor, u, f)
+  !> The same of n elements of a block from the one at `from`, by the kernel of its type.
+  subroutine subtract_block(system, block, from, n, factor, u, f)
+    type(system_t), intent(in) :: system
+    type(element_block_t), intent(in) :: block
+    integer, intent(in) :: from, n
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: f(:, :)
+    if (system%dim == 2 .and. block%nodes == 4) then
+      call four_nodes(n, system%n, block%node(1, from), block%stiffness(1, 1, from), factor, &
+          u, f)
+    else
+      call any_nodes(n, system%n, system%dim, block%nodes, block%node(1, from), &
+          block%stiffness(1, 1, from), factor, u, f)
+    end if
+  end subroutine subtract_block
+
+  !> Four nodes in the plane.
+  pure subroutine four_nodes(elements, n, node, k, factor, u, f)
     integer, intent(in) :: elements, n
     integer, intent(in) :: node(4, elements)
     real(wp), intent(in) :: k(6, 6, elements)
@@ -82,7 +105,46 @@ contains
       f(1, i4) = f(1, i4) - g(5)
       f(2, i4) = f(2, i4) - g(6)
     end do
-  end subroutine internal_kernel
+  end subroutine four_nodes
+
+  !> Any element.
+  pure subroutine any_nodes(elements, n, dim, nodes, node, k, factor, u, f)
+    integer, intent(in) :: elements, n, dim, nodes
+    integer, intent(in) :: node(nodes, elements)
+    real(wp), intent(in) :: k(dim*(nodes - 1), dim*(nodes - 1), elements)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: u(dim, n)
+    real(wp), intent(inout) :: f(dim, n)
+    real(wp), dimension(dim, nodes - 1) :: d, g
+    real(wp) :: total(dim)
+    integer :: e, i
+    do e = 1, elements
+      do i = 2, nodes
+        d(:, i - 1) = factor*(u(:, node(i, e)) - u(:, node(1, e)))
+      end do
+      call multiply(dim*(nodes - 1), k(:, :, e), d, g)
+      total = g(:, 1)
+      do i = 2, nodes - 1
+        total = total + g(:, i)
+      end do
+      f(:, node(1, e)) = f(:, node(1, e)) + total
+      do i = 2, nodes
+        f(:, node(i, e)) = f(:, node(i, e)) - g(:, i - 1)
+      end do
+    end do
+  end subroutine any_nodes
+
+  !> g = K d.
+  pure subroutine multiply(m, k, d, g)
+    integer, intent(in) :: m
+    real(wp), intent(in) :: k(m, m), d(m)
+    real(wp), intent(out) :: g(m)
+    integer :: j
+    g = k(:, 1)*d(1)
+    do j = 2, m
+      g = g + k(:, j)*d(j)
+    end do
+  end subroutine multiply
 
   !> Strain energy of each part [F L]; part(e) is the row of element e.
   pure subroutine strain_energies(system, part, u, energy)
@@ -90,10 +152,12 @@ contains
     integer, intent(in) :: part(:)
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(out) :: energy(:)
-    integer :: e
+    integer :: b
     energy = zero
-    do e = 1, size(system%node, 2)
-      energy(part(e)) = energy(part(e)) + half*element_product(system, e, u)
+    do b = 1, size(system%block)
+      associate (own => energy(part(system%block(b)%first)))
+        call add_products(system, system%block(b), half, u, own)
+      end associate
     end do
   end subroutine strain_energies
 
@@ -101,12 +165,33 @@ contains
   pure real(wp) function strain_product(system, u)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: u(:, :)
-    integer :: e
+    integer :: b
     strain_product = zero
-    do e = 1, size(system%node, 2)
-      strain_product = strain_product + element_product(system, e, u)
+    do b = 1, size(system%block)
+      call add_products(system, system%block(b), one, u, strain_product)
     end do
   end function strain_product
+
+  !> total = total + factor * u.K u of each element of a block [F L].
+  pure subroutine add_products(system, block, factor, u, total)
+    type(system_t), intent(in) :: system
+    type(element_block_t), intent(in) :: block
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: total
+    integer :: i
+    if (block%is_rigid) return
+    if (system%dim == 2 .and. block%nodes == 4) then
+      do i = 1, size(block%node, 2)
+        total = total + factor*product_of_four(system%n, block%node(1, i), &
+            block%stiffness(1, 1, i), u)
+      end do
+    else
+      do i = 1, size(block%node, 2)
+        total = total + factor*product_of_any(block%node(:, i), block%stiffness(:, :, i), u)
+      end do
+    end if
+  end subroutine add_products
 
   !> u.C u [F L].
   pure real(wp) function layer_product(system, u)
@@ -124,19 +209,55 @@ contains
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     real(wp), intent(in) :: u(:, :)
+    associate (block => system%block(system%block_of(e)))
+      element_product = zero
+      if (block%is_rigid) return
+      associate (node => block%node(:, e - block%first + 1), &
+          k => block%stiffness(:, :, e - block%first + 1))
+        if (system%dim == 2 .and. block%nodes == 4) then
+          element_product = product_of_four(system%n, node(1), k(1, 1), u)
+        else
+          element_product = product_of_any(node, k, u)
+        end if
+      end associate
+    end associate
+  end function element_product
+
+  !> Four nodes in the plane.
+  pure real(wp) function product_of_four(n, node, k, u) result(total)
+    integer, intent(in) :: n, node(4)
+    real(wp), intent(in) :: k(6, 6), u(2, n)
     real(wp) :: d(6)
     integer :: i
     do i = 2, 4
-      d(2*i - 3:2*i - 2) = u(:, system%node(i, e)) - u(:, system%node(1, e))
+      d(2*i - 3:2*i - 2) = u(:, node(i)) - u(:, node(1))
     end do
-    element_product = zero
+    total = zero
     do i = 1, 6
-      element_product = element_product &
-          + d(i)*(system%stiffness(1, i, e)*d(1) + system%stiffness(2, i, e)*d(2) &
-          + system%stiffness(3, i, e)*d(3) + system%stiffness(4, i, e)*d(4) &
-          + system%stiffness(5, i, e)*d(5) + system%stiffness(6, i, e)*d(6))
+      total = total + d(i)*(k(1, i)*d(1) + k(2, i)*d(2) + k(3, i)*d(3) + k(4, i)*d(4) &
+          + k(5, i)*d(5) + k(6, i)*d(6))
     end do
-  end function element_product
+  end function product_of_four
+
+  !> Any element.
+  pure real(wp) function product_of_any(node, k, u) result(total)
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: k(:, :), u(:, :)
+    real(wp) :: d(size(k, 1)), row
+    integer :: i, j, m
+    m = size(u, 1)
+    do i = 2, size(node)
+      d(m*(i - 2) + 1:m*(i - 1)) = u(:, node(i)) - u(:, node(1))
+    end do
+    total = zero
+    do i = 1, size(d)
+      row = k(1, i)*d(1)
+      do j = 2, size(d)
+        row = row + k(j, i)*d(j)
+      end do
+      total = total + d(i)*row
+    end do
+  end function product_of_any
 
   !> Largest rotation of an element [radians], by its diagonals, and the element.
   pure subroutine largest_rotation(system, x, u, angle, element)
@@ -148,9 +269,14 @@ contains
     integer :: k
     angle = zero
     element = 0
-    do k = 1, size(system%node, 2)
-      d = x(:, system%node(3, k)) - x(:, system%node(1, k))
-      e = d + (u(:, system%node(3, k)) - u(:, system%node(1, k)))
+    do k = 1, size(system%block_of)
+      associate (block => system%block(system%block_of(k)))
+        if (block%is_rigid) cycle    ! turns as it will
+        associate (node => block%node(:, k - block%first + 1))
+          d = x(:, node(3)) - x(:, node(1))
+          e = d + (u(:, node(3)) - u(:, node(1)))
+        end associate
+      end associate
       ! Unit sizes first: the products of an unbounded motion would overflow.
       size_d = maxval(abs(d))
       size_e = maxval(abs(e))
@@ -160,9 +286,6 @@ contains
       sine = d(1)*e(2) - d(2)*e(1)
       cosine = d(1)*e(1) + d(2)*e(2)
       if (abs(sine) <= angle*cosine) cycle
-      if (allocated(system%idle)) then    ! rigid parts turn as they will
-        if (.not. any(abs(system%stiffness(:, :, k)) > zero)) cycle
-      end if
       angle = abs(sine)/max(cosine, tiny(cosine))
       element = k
     end do
@@ -174,10 +297,13 @@ contains
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), u(:, :)
     real(wp) :: d(2), e(2)
-    do first_inverted = 1, size(system%node, 2)
-      associate (c => system%node(:, first_inverted))
-        d = (x(:, c(3)) - x(:, c(1))) + (u(:, c(3)) - u(:, c(1)))
-        e = (x(:, c(4)) - x(:, c(2))) + (u(:, c(4)) - u(:, c(2)))
+    do first_inverted = 1, size(system%block_of)
+      associate (block => system%block(system%block_of(first_inverted)))
+        associate (c => block%node(:, first_inverted - block%first + 1), &
+            last => block%nodes)
+          d = (x(:, c(3)) - x(:, c(1))) + (u(:, c(3)) - u(:, c(1)))
+          e = (x(:, c(last)) - x(:, c(2))) + (u(:, c(last)) - u(:, c(2)))
+        end associate
       end associate
       if (.not. d(1)*e(2) - d(2)*e(1) > zero) return
     end do

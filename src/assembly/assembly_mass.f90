@@ -5,9 +5,9 @@ module assembly_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
-  use element_base, only: element_t, element_slot_t
+  use element_base, only: element_t, most_nodes
   use linalg_graph, only: graph_t
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use model_rigid, only: rigid_t
   implicit none
   private
@@ -15,21 +15,21 @@ module assembly_mass
 
 contains
 
-  !> Mass (4, 4) [M] of element e by the type asked for; a triangle fills (3, 3). CONSISTENT:
-  !> Gauss points. LUMPED: its row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu =
-  !> c dt/h per direction, clipped to [0, 1] (Guddati & Yue 2004, tuned to the mid-point rule
-  !> in time).
+  !> Mass (nodes, nodes) [M] of element e by the type asked for. CONSISTENT: Gauss points.
+  !> LUMPED: its row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu = c dt/h per
+  !> direction, clipped to [0, 1] (Guddati & Yue 2004, tuned to the mid-point rule in time).
   pure subroutine element_mass(model, element, e, me)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element
     integer, intent(in) :: e
-    real(wp), intent(out) :: me(4, 4)
-    real(wp) :: x(2, element%nodes), nu(2), a(2), density, lumped(element%nodes)
+    real(wp), intent(out) :: me(:, :)
+    real(wp) :: x(element%dim, element%nodes), density, lumped(element%nodes)
+    real(wp), dimension(element%dim) :: nu, a
     integer :: k, n
     n = element%nodes
     me = zero
-    associate (part => model%part(model%element_part(e)), controls => model%controls)
-      x = model%x(:, model%connectivity(1:n, e))
+    associate (part => model%part(model%mesh%part(e)), controls => model%controls)
+      x = model%x(:, model%mesh%nodes_of(e))
       density = model%material(part%material)%item%density
       if (controls%mass == 'LUMPED') then
         lumped = element%lumped_mass(x, density, part%thickness)
@@ -46,31 +46,31 @@ contains
         nu = min(one, max(zero, nu))
         a = sqrt(2.0_wp/3.0_wp*(one - nu)*(one + nu))
       end if
-      call element%mass(x, density, part%thickness, a, me(1:n, 1:n))
+      call element%mass(x, density, part%thickness, a, me)
     end associate
   end subroutine element_mass
 
   !> M* = T' M T, each element with the weight of its part: the rows and columns of a massless
   !> node go to its targets, in equal shares. mass(:) on the graph [M times the weight].
-  subroutine assemble_mass(model, element, graph, first, target, weight, mass)
+  subroutine assemble_mass(model, graph, first, target, weight, mass)
     type(model_t), intent(in) :: model
-    type(element_slot_t), intent(in) :: element(3:)
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: first(:), target(:)
     real(wp), intent(in) :: weight(:)
     real(wp), intent(out) :: mass(:)
-    real(wp) :: me(4, 4), share
-    integer :: e, i, j, a, b, position
+    real(wp) :: me(most_nodes, most_nodes), share
+    integer :: e, i, j, a, b, n, position
     mass = zero
-    do e = 1, model%elements
-      if (.not. abs(weight(model%element_part(e))) > zero) cycle
-      if (model%part(model%element_part(e))%is_rigid) cycle
-      call element_mass(model, element(node_count(model%connectivity(:, e)))%item, e, me)
-      me = weight(model%element_part(e))*me
-      do j = 1, 4
-        associate (nj => model%connectivity(j, e))
-          do i = 1, 4
-            associate (ni => model%connectivity(i, e))
+    do e = 1, model%mesh%n
+      if (.not. abs(weight(model%mesh%part(e))) > zero) cycle
+      if (model%part(model%mesh%part(e))%is_rigid) cycle
+      n = model%mesh%count_of(e)
+      call element_mass(model, model%mesh%kind(model%mesh%type(e))%item, e, me(:n, :n))
+      me(:n, :n) = weight(model%mesh%part(e))*me(:n, :n)
+      do j = 1, n
+        associate (nj => model%mesh%node_of(j, e))
+          do i = 1, n
+            associate (ni => model%mesh%node_of(i, e))
               share = me(i, j)/real((first(ni + 1) - first(ni))*(first(nj + 1) - first(nj)), wp)
               do b = first(nj), first(nj + 1) - 1
                 do a = first(ni), first(ni + 1) - 1
@@ -136,21 +136,34 @@ contains
     type(model_t), intent(in) :: model
     logical, intent(in) :: is_contact(:)
     integer, intent(inout) :: inner(:, :), count(:)
-    integer :: e, k, s, i, j, n
-    do e = 1, model%elements
-      n = node_count(model%connectivity(:, e))
-      do k = 1, n
-        i = model%connectivity(k, e)
-        if (.not. is_contact(i)) cycle
-        do s = 1, n - 1, n - 2
-          j = model%connectivity(1 + mod(k - 1 + s, n), e)
-          if (is_contact(j) .or. count(i) == size(inner, 1)) cycle
-          if (any(inner(1:count(i), i) == j)) cycle
-          count(i) = count(i) + 1
-          inner(count(i), i) = j
+    integer :: e, f, k, m, pass
+    do e = 1, model%mesh%n
+      do pass = 1, 2
+        do f = 1, model%mesh%faces_of(e)
+          associate (node => model%mesh%face_of(f, e))
+            m = size(node)
+            do k = 1, m
+              if (pass == 1 .and. (k < m .or. m > 2)) &
+                  call add_inner(node(k), node(1 + mod(k, m)), is_contact, inner, count)
+              if (pass == 2 .and. (k > 1 .or. m > 2)) &
+                  call add_inner(node(k), node(1 + mod(k + m - 2, m)), is_contact, inner, count)
+            end do
+          end associate
         end do
       end do
     end do
   end subroutine find_inner
+
+  !> Node j is joined to node i.
+  pure subroutine add_inner(i, j, is_contact, inner, count)
+    integer, intent(in) :: i, j
+    logical, intent(in) :: is_contact(:)
+    integer, intent(inout) :: inner(:, :), count(:)
+    if (.not. is_contact(i)) return
+    if (is_contact(j) .or. count(i) == size(inner, 1)) return
+    if (any(inner(1:count(i), i) == j)) return
+    count(i) = count(i) + 1
+    inner(count(i), i) = j
+  end subroutine add_inner
 
 end module assembly_mass

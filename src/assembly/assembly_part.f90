@@ -51,9 +51,11 @@ contains
     type(part_t), intent(inout) :: part
     logical, allocatable :: is_taken(:)
     integer :: e
-    allocate (is_taken(size(system%node, 2)))
+    allocate (is_taken(size(system%block_of)))
     do e = 1, size(is_taken)
-      is_taken(e) = any(marked(system%node(:, e)))
+      associate (block => system%block(system%block_of(e)))
+        is_taken(e) = any(marked(block%node(:, e - block%first + 1)))
+      end associate
     end do
     part%element = pack([(e, e=1, size(is_taken))], is_taken)
     part%massless_layer = pack(system%massless_layer, is_taken(system%massless_layer))

@@ -5,12 +5,12 @@
 module assembly_system
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
+  use assembly_blocks, only: element_block_t, make_blocks, assemble_stiffness, &
+      whole_stiffness, largest_stiffness
   use assembly_mass, only: assemble_mass, redistribution_targets
-  use element_base, only: element_slot_t
-  use element_registry, only: make_element
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
       scalar_products, scalar_rows
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   implicit none
   private
 
@@ -26,17 +26,15 @@ module assembly_system
 
   type, public :: system_t
     integer :: n = 0
+    integer :: dim = 2
     type(graph_t) :: graph
     real(wp), allocatable :: mass(:)          !< node-scalar mass on the graph [M]
     logical :: mass_is_diagonal = .false.
     !> (n) row sums of the mass [M]: body loads, momentum
     real(wp), allocatable :: lumped(:)
     integer :: heavy = 0                      !< nodes that gravity acts on: all but rotors
-    type(element_slot_t) :: element(3:4)      !< the element types by their number of nodes
-    integer, allocatable :: node(:, :)      !< (4, ne) rows of nodes
-    !> (6, 6, ne) stiffness of nodes 2..4 relative to node 1 [F/L]: a translation of the element
-    !> drops out before anything is multiplied, so a flying body has no internal force at all.
-    real(wp), allocatable :: stiffness(:, :, :)
+    type(element_block_t), allocatable :: block(:)
+    integer, allocatable :: block_of(:)       !< (elements)
     integer, allocatable :: massless_layer(:)  !< elements with a massless node
     type(damping_t), allocatable :: damping    !< only where the deck has it
     integer, allocatable :: massless_body(:)   !< nodes without mass and element, all held
@@ -69,19 +67,17 @@ contains
       system%heavy = system%heavy - size(model%rigid%rotor)
       system%idle = model%rigid%node
     end if
-    system%node = model%connectivity
-    call make_element(3, system%element(3)%item)
-    call make_element(4, system%element(4)%item)
+    call make_blocks(model, system%block, system%block_of)
     call redistribution_targets(model, massless, first, target, status)
     if (failed(status)) return
     call element_cliques(model, first, target, clique_first, clique)
     call graph_from_cliques(model%nodes, clique_first, clique, system%graph)
     allocate (system%mass(size(system%graph%column)), system%lumped(model%nodes))
-    call assemble_mass(model, system%element, system%graph, first, target, &
+    call assemble_mass(model, system%graph, first, target, &
         [(one, k=1, size(model%part))], system%mass)
     call add_bodies(model, system)
     call row_sums(system)
-    call assemble_stiffness(model, system)
+    call assemble_stiffness(model, system%block)
     call find_layer(model, massless, system)
     if (allocated(model%mass_damping) .or. allocated(model%stiffness_damping)) &
         call make_damping(model, first, target, system)
@@ -117,8 +113,8 @@ contains
     integer :: e
     is_massless = .false.
     is_massless(massless) = .true.
-    system%massless_layer = pack([(e, e=1, model%elements)], &
-        [(any(is_massless(model%connectivity(:, e))), e=1, model%elements)])
+    system%massless_layer = pack([(e, e=1, model%mesh%n)], &
+        [(any(is_massless(model%mesh%nodes_of(e))), e=1, model%mesh%n)])
   end subroutine find_layer
 
   !> Damping: the elements by stiffness, room for that by mass, whose coefficients may change
@@ -131,10 +127,10 @@ contains
     allocate (system%damping)
     associate (d => system%damping)
       allocate (d%element(0), d%coefficient(0))
-      if (allocated(model%stiffness_damping)) d%element = pack([(e, e=1, model%elements)], &
-          model%stiffness_damping(model%element_part) > zero)
+      if (allocated(model%stiffness_damping)) d%element = pack([(e, e=1, model%mesh%n)], &
+          model%stiffness_damping(model%mesh%part) > zero)
       if (allocated(model%stiffness_damping)) &
-          d%coefficient = model%stiffness_damping(model%element_part(d%element))
+          d%coefficient = model%stiffness_damping(model%mesh%part(d%element))
       if (.not. allocated(model%mass_damping)) return
       d%first = first
       d%target = target
@@ -149,14 +145,14 @@ contains
     integer, intent(in) :: first(:), target(:)
     integer, allocatable, intent(out) :: clique_first(:), clique(:)
     integer :: e, k, i, m, pass
-    allocate (clique_first(model%elements + 1))
+    allocate (clique_first(model%mesh%n + 1))
     do pass = 1, 2
       m = 0
-      do e = 1, model%elements
+      do e = 1, model%mesh%n
         clique_first(e) = m + 1
-        if (model%part(model%element_part(e))%is_rigid) cycle
-        do k = 1, 4
-          i = model%connectivity(k, e)
+        if (model%part(model%mesh%part(e))%is_rigid) cycle
+        do k = 1, model%mesh%count_of(e)
+          i = model%mesh%node_of(k, e)
           m = m + 1
           if (pass == 2) clique(m) = i
           if (first(i + 1) - first(i) == 1) then
@@ -167,7 +163,7 @@ contains
           m = m + first(i + 1) - first(i)
         end do
       end do
-      clique_first(model%elements + 1) = m + 1
+      clique_first(model%mesh%n + 1) = m + 1
       if (pass == 1) allocate (clique(m))
     end do
   end subroutine element_cliques
@@ -186,26 +182,6 @@ contains
     end do
   end subroutine row_sums
 
-  !> A triangle is a quadrilateral whose fourth node adds nothing.
-  subroutine assemble_stiffness(model, system)
-    type(model_t), intent(in) :: model
-    type(system_t), intent(inout) :: system
-    real(wp) :: ke(8, 8)
-    integer :: e, n
-    allocate (system%stiffness(6, 6, model%elements))
-    do e = 1, model%elements
-      n = node_count(model%connectivity(:, e))
-      ke = zero
-      associate (part => model%part(model%element_part(e)))
-        if (.not. part%is_rigid) call system%element(n)%item%stiffness( &
-            model%x(:, model%connectivity(1:n, e)), &
-            model%material(part%material)%item%moduli(part%plane), part%thickness, &
-            ke(1:2*n, 1:2*n))
-      end associate
-      system%stiffness(:, :, e) = ke(3:8, 3:8)
-    end do
-  end subroutine assemble_stiffness
-
   !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their
   !> diagonal only (1 where they have no mass), so that a right-hand side of zero there gives a
   !> displacement of zero.
@@ -217,7 +193,7 @@ contains
     if (.not. allocated(matrix%value)) allocate (matrix%value(2, 2, size(system%graph%column)))
     matrix%value = zero
     if (abs(c_k) > zero) then
-      do e = 1, size(system%node, 2)
+      do e = 1, size(system%block_of)
         call add_stiffness(system, e, c_k, matrix)
       end do
     end if
@@ -329,39 +305,37 @@ contains
     integer, intent(in) :: e
     real(wp), intent(in) :: factor
     type(block_matrix_t), intent(inout) :: matrix
-    real(wp) :: ke(8, 8)
-    integer :: i, j, k
-    if (allocated(system%idle)) then    ! an element of a rigid part: not on the graph
-      if (.not. any(abs(system%stiffness(:, :, e)) > zero)) return
-    end if
-    ke(3:8, 3:8) = factor*system%stiffness(:, :, e)
-    do i = 1, 2
-      ke(i, 3:8) = -(ke(i + 2, 3:8) + ke(i + 4, 3:8) + ke(i + 6, 3:8))
-    end do
-    ke(3:8, 1:2) = transpose(ke(1:2, 3:8))
-    do i = 1, 2
-      ke(i, 1:2) = -(ke(i + 2, 1:2) + ke(i + 4, 1:2) + ke(i + 6, 1:2))
-    end do
-    do j = 1, 4
-      do i = 1, 4
-        k = system%graph%position(system%node(i, e), system%node(j, e))
-        matrix%value(:, :, k) = matrix%value(:, :, k) + ke(2*i - 1:2*i, 2*j - 1:2*j)
-      end do
-    end do
+    real(wp) :: ke(system%dim*system%block(system%block_of(e))%nodes, &
+        system%dim*system%block(system%block_of(e))%nodes)
+    integer :: i, j, k, d
+    d = system%dim
+    associate (block => system%block(system%block_of(e)))
+      if (block%is_rigid) return
+      associate (node => block%node(:, e - block%first + 1))
+        call whole_stiffness(d, factor, block%stiffness(:, :, e - block%first + 1), ke)
+        do j = 1, block%nodes
+          do i = 1, block%nodes
+            k = system%graph%position(node(i), node(j))
+            matrix%value(:, :, k) = matrix%value(:, :, k) &
+                + ke(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j)
+          end do
+        end do
+      end associate
+    end associate
   end subroutine add_stiffness
 
   !> Largest diagonal of cK K over the largest of cM M.
   pure real(wp) function stiffness_ratio(system, c_m, c_k)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_k
-    integer :: e, i
-    stiffness_ratio = zero
-    do e = 1, size(system%node, 2)
-      do i = 1, 6
-        stiffness_ratio = max(stiffness_ratio, system%stiffness(i, i, e))
-      end do
+    integer :: b
+    real(wp) :: heaviest
+    heaviest = zero
+    do b = 1, size(system%block)
+      heaviest = max(heaviest, maxval(system%lumped(reshape(system%block(b)%node, &
+          [size(system%block(b)%node)]))))
     end do
-    stiffness_ratio = stiffness_ratio*c_k/(c_m*maxval(system%lumped(:maxval(system%node))))
+    stiffness_ratio = largest_stiffness(system%block)*c_k/(c_m*heaviest)
   end function stiffness_ratio
 
   !> y = y + factor * M x.

@@ -5,7 +5,7 @@
 module contact_surface
   use base_kinds, only: wp, zero, one, half
   use base_sort, only: sort_order
-  use model_data, only: model_t, node_count, side_part_set, side_node_set, side_part, &
+  use model_data, only: model_t, side_part_set, side_node_set, side_part, &
       side_segment_set, side_all_nodes, side_parts
   implicit none
   private
@@ -125,15 +125,15 @@ contains
     integer, allocatable, intent(out) :: edge(:, :), part(:)
     integer, allocatable :: all_edges(:, :), all_parts(:), order(:)
     logical, allocatable :: single(:)
-    integer :: e, k, n, i, j, first, corners
-    allocate (all_edges(2, 4*model%elements), all_parts(4*model%elements))
+    integer :: e, f, n, i, j, first
+    n = sum([(model%mesh%faces_of(e), e=1, model%mesh%n)])
+    allocate (all_edges(2, n), all_parts(n))
     n = 0
-    do e = 1, model%elements
-      corners = node_count(model%connectivity(:, e))
-      do k = 1, corners
+    do e = 1, model%mesh%n
+      do f = 1, model%mesh%faces_of(e)
         n = n + 1
-        all_edges(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, corners), e)]
-        all_parts(n) = model%element_part(e)
+        all_edges(:, n) = model%mesh%face_of(f, e)
+        all_parts(n) = model%mesh%part(e)
       end do
     end do
     allocate (order(n), single(n))
@@ -225,10 +225,10 @@ contains
     integer :: e, k, a, b
     allocate (root(model%nodes))
     root = [(k, k=1, model%nodes)]
-    do e = 1, model%elements
-      do k = 2, 4
-        a = root_of(root, model%connectivity(1, e))
-        b = root_of(root, model%connectivity(k, e))
+    do e = 1, model%mesh%n
+      do k = 2, model%mesh%count_of(e)
+        a = root_of(root, model%mesh%node_of(1, e))
+        b = root_of(root, model%mesh%node_of(k, e))
         root(max(a, b)) = min(a, b)
       end do
     end do

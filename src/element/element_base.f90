@@ -1,22 +1,35 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What an element type offers: matrices of one element from plain arrays, no mesh.
+!> What an element type offers: matrices of one element from plain arrays, no mesh. A type says
+!> its shape functions, its quadrature and its faces; the rest follows here.
 module element_base
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   implicit none
   private
-  integer, parameter, public :: most_nodes = 4   !< of an element
+  !> Of an element, of a face, of a rule of integration, and strains at a point in space.
+  integer, parameter, public :: most_nodes = 27, most_face_nodes = 9, most_points = 64, &
+      most_strains = 6
 
   type, abstract, public :: element_t
     character(8) :: name = ''
+    integer :: dim = 2
     integer :: nodes = 0
+    integer :: vtk = 0                   !< its number in VTK
+    !> (nodes of a face, faces) outward: in the plane edges with the element on their left, in
+    !> space seen from outside counter-clockwise; 0 = this face has fewer nodes
+    integer, allocatable :: face(:, :)
   contains
-    procedure(stiffness_i), deferred :: stiffness
-    procedure(mass_i), deferred :: mass
-    procedure(sizes_i), deferred :: sizes
-    procedure(jacobian_i), deferred :: smallest_jacobian
-    procedure(strain_i), deferred :: mean_strain_matrix
+    procedure(shape_i), deferred :: shape
+    procedure(rule_i), deferred :: rule
+    procedure :: mass_rule => element_mass_rule
+    procedure :: gradients => element_gradients
+    procedure :: stiffness => element_stiffness
+    procedure :: mass => element_mass
+    procedure :: sizes => element_sizes
+    procedure :: smallest_jacobian => element_smallest_jacobian
+    procedure :: mean_strain_matrix => element_mean_strain_matrix
     procedure :: mean_strain => element_mean_strain
     procedure :: lumped_mass => element_lumped_mass
+    procedure :: face_size
   end type element_t
 
   !> An element in a list of elements of several kinds.
@@ -25,83 +38,273 @@ module element_base
   end type element_slot_t
 
   abstract interface
-    !> Stiffness (2n, 2n) [F/L] from coordinates x (2, n) [L], moduli d (3, 3), thickness [L];
-    !> dofs ordered node by node (x, y).
-    pure subroutine stiffness_i(this, x, d, thickness, ke)
+    !> Shape functions n (nodes) at a parametric point xi (dim), and their derivatives there dn
+    !> (nodes, dim).
+    pure subroutine shape_i(this, xi, n, dn)
       import :: element_t, wp
       class(element_t), intent(in) :: this
-      real(wp), intent(in) :: x(:, :)
-      real(wp), intent(in) :: d(3, 3)
-      real(wp), intent(in) :: thickness
-      real(wp), intent(out) :: ke(:, :)
-    end subroutine stiffness_i
-    !> Mass (n, n) [M] integrated at points +-a(i) of parametric direction i.
-    pure subroutine mass_i(this, x, density, thickness, a, me)
+      real(wp), intent(in) :: xi(:)
+      real(wp), intent(out) :: n(:), dn(:, :)
+    end subroutine shape_i
+    !> Quadrature of the stiffness: points xi (dim, 1:points), weights w.
+    pure subroutine rule_i(this, points, xi, w)
       import :: element_t, wp
       class(element_t), intent(in) :: this
-      real(wp), intent(in) :: x(:, :)
-      real(wp), intent(in) :: density
-      real(wp), intent(in) :: thickness
-      real(wp), intent(in) :: a(2)
-      real(wp), intent(out) :: me(:, :)
-    end subroutine mass_i
-    !> Width in each parametric direction [L]: the distance of opposite edge midpoints.
-    pure function sizes_i(this, x) result(h)
-      import :: element_t, wp
-      class(element_t), intent(in) :: this
-      real(wp), intent(in) :: x(:, :)
-      real(wp) :: h(2)
-    end function sizes_i
-    !> Smallest determinant of the Jacobian at a corner [L2]; not positive: clockwise or
-    !> degenerate.
-    pure function jacobian_i(this, x) result(j)
-      import :: element_t, wp
-      class(element_t), intent(in) :: this
-      real(wp), intent(in) :: x(:, :)
-      real(wp) :: j
-    end function jacobian_i
-    !> Mean over the Gauss points of B (3, 2n) [1/L]: strains (exx, eyy, gxy) of unit
-    !> displacements, dofs ordered node by node.
-    pure subroutine strain_i(this, x, b)
-      import :: element_t, wp
-      class(element_t), intent(in) :: this
-      real(wp), intent(in) :: x(:, :)
-      real(wp), intent(out) :: b(:, :)
-    end subroutine strain_i
+      integer, intent(out) :: points
+      real(wp), intent(out) :: xi(:, :), w(:)
+    end subroutine rule_i
   end interface
+
+  public :: strain_matrix, strains, gauss
+
+  real(wp), parameter :: gauss = one/sqrt(3.0_wp)
 
 contains
 
-  !> Mean strain (exx, eyy, gxy) of displacements u (2, n) [L]; a translation of the element is
-  !> taken off first.
+  !> Strains at a point: 3 in the plane, (exx, eyy, gxy); 6 in space, (exx, eyy, ezz, gxy, gyz,
+  !> gzx).
+  pure integer function strains(dim)
+    integer, intent(in) :: dim
+    strains = 3*(dim - 1)
+  end function strains
+
+  !> Quadrature of the mass: that of the stiffness, whatever the points +-a(i) asked for in
+  !> parametric direction i.
+  pure subroutine element_mass_rule(this, a, points, xi, w)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: a(:)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    call this%rule(points, xi, w)
+  end subroutine element_mass_rule
+
+  !> Derivatives dn (nodes, dim) [1/L] of the shape functions in the coordinates x (dim, nodes)
+  !> [L] at a parametric point, the determinant of the Jacobian there, and the shape functions.
+  pure subroutine element_gradients(this, x, xi, n, dn, det_j)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :), xi(:)
+    real(wp), intent(out) :: n(:), dn(:, :), det_j
+    real(wp) :: local(size(x, 2), size(x, 1)), j(size(x, 1), size(x, 1))
+    integer :: a, b, k
+    call this%shape(xi, n, local)
+    ! From the first node: translations of the element then leave no trace in the digits.
+    do b = 1, size(x, 1)
+      do a = 1, size(x, 1)
+        j(a, b) = zero
+        do k = 2, size(x, 2)
+          j(a, b) = j(a, b) + (x(a, k) - x(a, 1))*local(k, b)
+        end do
+      end do
+    end do
+    if (size(x, 1) == 2) then
+      det_j = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+      dn(:, 1) = (local(:, 1)*j(2, 2) - local(:, 2)*j(2, 1))/det_j
+      dn(:, 2) = (local(:, 2)*j(1, 1) - local(:, 1)*j(1, 2))/det_j
+    else
+      det_j = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
+      dn(:, :) = matmul(local, inverse(j, det_j))
+    end if
+  end subroutine element_gradients
+
+  pure function cross(a, b) result(c)
+    real(wp), intent(in) :: a(:), b(:)
+    real(wp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
+
+  !> Rows of the inverse are products of the columns.
+  pure function inverse(j, det) result(i)
+    real(wp), intent(in) :: j(:, :), det
+    real(wp) :: i(3, 3)
+    i(1, :) = cross(j(:, 2), j(:, 3))/det
+    i(2, :) = cross(j(:, 3), j(:, 1))/det
+    i(3, :) = cross(j(:, 1), j(:, 2))/det
+  end function inverse
+
+  !> B (strains, dim nodes) [1/L]: strains of unit displacements, dofs node by node, from the
+  !> derivatives dn (nodes, dim).
+  pure subroutine strain_matrix(dn, b)
+    real(wp), intent(in) :: dn(:, :)
+    real(wp), intent(out) :: b(:, :)
+    integer :: k
+    b = zero
+    do k = 1, size(dn, 1)
+      if (size(dn, 2) == 2) then
+        b(1, 2*k - 1) = dn(k, 1)
+        b(2, 2*k) = dn(k, 2)
+        b(3, 2*k - 1) = dn(k, 2)
+        b(3, 2*k) = dn(k, 1)
+      else
+        b(1, 3*k - 2) = dn(k, 1)
+        b(2, 3*k - 1) = dn(k, 2)
+        b(3, 3*k) = dn(k, 3)
+        b(4, 3*k - 2:3*k - 1) = [dn(k, 2), dn(k, 1)]
+        b(5, 3*k - 1:3*k) = [dn(k, 3), dn(k, 2)]
+        b(6, 3*k - 2) = dn(k, 3)
+        b(6, 3*k) = dn(k, 1)
+      end if
+    end do
+  end subroutine strain_matrix
+
+  !> Stiffness (dim nodes, dim nodes) [F/L], sum over the points of B' D B (Zienkiewicz & Taylor
+  !> 2000, vol. 1, ch. 4): from coordinates x (dim, nodes) [L], moduli d (strains, strains)
+  !> [F/L2], thickness [L] (1 in space).
+  pure subroutine element_stiffness(this, x, d, thickness, ke)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: d(:, :)
+    real(wp), intent(in) :: thickness
+    real(wp), intent(out) :: ke(:, :)
+    real(wp) :: xi(3, most_points), w(most_points), n(size(x, 2)), dn(size(x, 2), size(x, 1))
+    real(wp) :: b(size(d, 1), size(x)), det_j
+    integer :: k, points
+    call this%rule(points, xi, w)
+    ke = zero
+    do k = 1, points
+      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
+      call strain_matrix(dn, b)
+      call add_product(size(b, 1), size(b, 2), thickness*det_j*w(k), d, b, ke)
+    end do
+    ke = half*(ke + transpose(ke))
+  end subroutine element_stiffness
+
+  !> ke = ke + factor * B' D B.
+  pure subroutine add_product(s, m, factor, d, b, ke)
+    integer, intent(in) :: s, m
+    real(wp), intent(in) :: factor, d(s, s), b(s, m)
+    real(wp), intent(inout) :: ke(m, m)
+    real(wp) :: db(s), total
+    integer :: i, j, k
+    do j = 1, m
+      db = zero
+      do k = 1, s
+        db = db + d(:, k)*b(k, j)
+      end do
+      do i = 1, m
+        total = zero
+        do k = 1, s
+          total = total + b(k, i)*db(k)
+        end do
+        ke(i, j) = ke(i, j) + factor*total
+      end do
+    end do
+  end subroutine add_product
+
+  !> Mass (nodes, nodes) [M] by the rule for points +-a(i) of parametric direction i: a =
+  !> 1/sqrt(3) is the consistent mass, between that and 1 the modified rules of Guddati & Yue
+  !> (2004).
+  pure subroutine element_mass(this, x, density, thickness, a, me)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(in) :: density
+    real(wp), intent(in) :: thickness
+    real(wp), intent(in) :: a(:)
+    real(wp), intent(out) :: me(:, :)
+    real(wp) :: xi(3, most_points), w(most_points), n(size(x, 2)), dn(size(x, 2), size(x, 1))
+    real(wp) :: det_j
+    integer :: k, i, points
+    call this%mass_rule(a, points, xi, w)
+    me = zero
+    do k = 1, points
+      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
+      do i = 1, size(n)
+        me(:, i) = me(:, i) + density*thickness*det_j*w(k)*n(i)*n
+      end do
+    end do
+  end subroutine element_mass
+
+  !> Width h (dim) in each parametric direction [L]: of an element without directions of its own
+  !> its volume over its largest face, dim times.
+  pure function element_sizes(this, x) result(h)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: h(size(x, 1)), largest, c(3)
+    integer :: f, k
+    largest = zero
+    do f = 1, size(this%face, 2)
+      c = zero
+      do k = 2, this%face_size(f) - 1
+        c = c + half*cross(x(:, this%face(k, f)) - x(:, this%face(1, f)), &
+            x(:, this%face(k + 1, f)) - x(:, this%face(1, f)))
+      end do
+      largest = max(largest, sqrt(sum(c**2)))
+    end do
+    h = size(x, 1)*sum(this%lumped_mass(x, one, one))/largest
+  end function element_sizes
+
+  !> Smallest determinant of the Jacobian at the points of its rule; not positive: wrong sense
+  !> or degenerate.
+  pure function element_smallest_jacobian(this, x) result(j)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: j, det_j, xi(3, most_points), w(most_points)
+    real(wp) :: n(size(x, 2)), dn(size(x, 2), size(x, 1))
+    integer :: k, points
+    call this%rule(points, xi, w)
+    j = huge(j)
+    do k = 1, points
+      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
+      j = min(j, det_j)
+    end do
+  end function element_smallest_jacobian
+
+  !> Mean over the points of B.
+  pure subroutine element_mean_strain_matrix(this, x, b)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(out) :: b(:, :)
+    real(wp) :: xi(3, most_points), w(most_points), n(size(x, 2)), dn(size(x, 2), size(x, 1))
+    real(wp) :: det_j, mean(size(x, 2), size(x, 1))
+    integer :: k, points
+    call this%rule(points, xi, w)
+    mean = zero
+    do k = 1, points
+      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
+      mean = mean + w(k)/sum(w(:points))*dn
+    end do
+    call strain_matrix(mean, b)
+  end subroutine element_mean_strain_matrix
+
+  !> Mean strain of displacements u (dim, nodes) [L]; a translation of the element is taken off
+  !> first.
   pure function element_mean_strain(this, x, u) result(strain)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(in) :: u(:, :)
-    real(wp) :: strain(3), b(3, 2*most_nodes), d(2)
-    integer :: i
-    call this%mean_strain_matrix(x, b(:, :2*size(u, 2)))
+    real(wp) :: strain(strains(size(u, 1))), b(size(strain), size(u)), part(size(strain))
+    integer :: i, k, m
+    call this%mean_strain_matrix(x, b)
+    m = size(u, 1)
     strain = zero
     do i = 2, size(u, 2)
-      d(1) = u(1, i) - u(1, 1)
-      d(2) = u(2, i) - u(2, 1)
-      strain = strain + (b(:, 2*i - 1)*d(1) + b(:, 2*i)*d(2))
+      part = zero
+      do k = 1, m
+        part = part + b(:, m*(i - 1) + k)*(u(k, i) - u(k, 1))
+      end do
+      strain = strain + part
     end do
   end function element_mean_strain
 
-  !> Lumped mass (n) [M]: row sums of the consistent one.
+  !> Lumped mass (nodes) [M]: row sums of the consistent one.
   pure function element_lumped_mass(this, x, density, thickness) result(mass)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(in) :: density
     real(wp), intent(in) :: thickness
-    real(wp) :: mass(size(x, 2)), me(size(x, 2), size(x, 2))
-    real(wp), parameter :: gauss = one/sqrt(3.0_wp)
+    real(wp) :: mass(size(x, 2)), me(size(x, 2), size(x, 2)), a(size(x, 1))
     integer :: k
-    call this%mass(x, density, thickness, [gauss, gauss], me)
+    a = gauss
+    call this%mass(x, density, thickness, a, me)
     do k = 1, size(x, 2)
       mass(k) = sum(me(:, k))
     end do
   end function element_lumped_mass
+
+  !> Nodes of face f.
+  pure integer function face_size(this, f)
+    class(element_t), intent(in) :: this
+    integer, intent(in) :: f
+    face_size = count(this%face(:, f) > 0)
+  end function face_size
 
 end module element_base

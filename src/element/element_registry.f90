@@ -1,25 +1,44 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Elements by their number of nodes in the plane. To add one: its file, its `use`, its case.
+!> The elements by name. To add one: its file, and here its `use` and its line in find_element.
 module element_registry
   use element_base, only: element_t
-  use element_quad4, only: quad4_t
-  use element_tri3, only: tri3_t
+  use element_quad4, only: new_quad4
+  use element_tri3, only: new_tri3
   implicit none
   private
-  public :: make_element
+  public :: make_element, element_names
 
 contains
 
-  !> An element type; not allocated when there is none with so many nodes.
-  subroutine make_element(nodes, element)
-    integer, intent(in) :: nodes
+  !> The element of a name; not allocated when there is none.
+  subroutine make_element(name, element)
+    character(*), intent(in) :: name
     class(element_t), allocatable, intent(out) :: element
-    select case (nodes)
-    case (3)
-      allocate (element, source=tri3_t(name='TRI3', nodes=3))
-    case (4)
-      allocate (element, source=quad4_t(name='QUAD4', nodes=4))
-    end select
+    character(8), allocatable :: names(:)
+    call find_element(name, names, element)
   end subroutine make_element
+
+  !> The names of all elements.
+  subroutine element_names(names)
+    character(8), allocatable, intent(out) :: names(:)
+    class(element_t), allocatable :: none
+    call find_element('', names, none)
+  end subroutine element_names
+
+  !> Names all elements and makes the wanted one.
+  subroutine find_element(wanted, names, element)
+    character(*), intent(in) :: wanted
+    character(8), allocatable, intent(out) :: names(:)
+    class(element_t), allocatable, intent(out) :: element
+    allocate (names(0))
+    call offer(new_quad4())
+    call offer(new_tri3())
+  contains
+    subroutine offer(one)
+      class(element_t), intent(in) :: one
+      names = [character(8) :: names, one%name]
+      if (one%name == wanted) allocate (element, source=one)
+    end subroutine offer
+  end subroutine find_element
 
 end module element_registry

@@ -1,13 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The triangle of constant strain.
 module element_tri3
-  use base_kinds, only: wp, zero, half
+  use base_kinds, only: wp, zero, one, half
   use element_base, only: element_t
   implicit none
   private
 
   type, extends(element_t), public :: tri3_t
   contains
+    procedure :: shape => tri3_shape
+    procedure :: rule => tri3_rule
     procedure :: stiffness => tri3_stiffness
     procedure :: mass => tri3_mass
     procedure :: sizes => tri3_sizes
@@ -15,7 +17,35 @@ module element_tri3
     procedure :: mean_strain_matrix => tri3_mean_strain_matrix
   end type tri3_t
 
+  public :: new_tri3
+
 contains
+
+  !> Its data.
+  pure function new_tri3() result(element)
+    type(tri3_t) :: element
+    element = tri3_t(name='TRI3', dim=2, nodes=3, vtk=5, &
+        face=reshape([1, 2, 2, 3, 3, 1], [2, 3]))
+  end function new_tri3
+
+  !> Areal coordinates; xi are those of the second and the third node.
+  pure subroutine tri3_shape(this, xi, n, dn)
+    class(tri3_t), intent(in) :: this
+    real(wp), intent(in) :: xi(:)
+    real(wp), intent(out) :: n(:), dn(:, :)
+    n = [one - xi(1) - xi(2), xi(1), xi(2)]
+    dn(:, 1) = [-one, one, zero]
+    dn(:, 2) = [-one, zero, one]
+  end subroutine tri3_shape
+
+  pure subroutine tri3_rule(this, points, xi, w)
+    class(tri3_t), intent(in) :: this
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    points = 1
+    xi(1:2, 1) = one/3.0_wp
+    w(1) = half
+  end subroutine tri3_rule
 
   !> Twice the area, from the first node: translations leave no trace in the digits.
   pure real(wp) function double_area(x)
@@ -28,19 +58,20 @@ contains
   pure subroutine tri3_stiffness(this, x, d, thickness, ke)
     class(tri3_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp), intent(in) :: d(3, 3)
+    real(wp), intent(in) :: d(:, :)
     real(wp), intent(in) :: thickness
     real(wp), intent(out) :: ke(:, :)
     real(wp) :: b(3, 6), k(6, 6)
-    b = strain_matrix(x)
+    call this%mean_strain_matrix(x, b)
     k = matmul(transpose(b), matmul(d, b))
     ke(1:6, 1:6) = 0.25_wp*thickness*double_area(x)*(k + transpose(k))
   end subroutine tri3_stiffness
 
-  !> B: strains (exx, eyy, gxy) of unit displacements.
-  pure function strain_matrix(x) result(b)
+  !> The strain is constant.
+  pure subroutine tri3_mean_strain_matrix(this, x, b)
+    class(tri3_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: b(3, 6)
+    real(wp), intent(out) :: b(:, :)
     integer :: i, j, k
     b = zero
     do i = 1, 3
@@ -51,14 +82,6 @@ contains
       b(3, 2*i - 1) = b(2, 2*i)
       b(3, 2*i) = b(1, 2*i - 1)
     end do
-  end function strain_matrix
-
-  !> The strain is constant.
-  pure subroutine tri3_mean_strain_matrix(this, x, b)
-    class(tri3_t), intent(in) :: this
-    real(wp), intent(in) :: x(:, :)
-    real(wp), intent(out) :: b(:, :)
-    b = strain_matrix(x)
   end subroutine tri3_mean_strain_matrix
 
   !> Exact integral of N N'; the rule of integration points (a) is that of quadrilaterals.
@@ -67,7 +90,7 @@ contains
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(in) :: density
     real(wp), intent(in) :: thickness
-    real(wp), intent(in) :: a(2)
+    real(wp), intent(in) :: a(:)
     real(wp), intent(out) :: me(:, :)
     integer :: i
     me = density*thickness*double_area(x)/24.0_wp
@@ -80,7 +103,7 @@ contains
   pure function tri3_sizes(this, x) result(h)
     class(tri3_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: h(2), longest
+    real(wp) :: h(size(x, 1)), longest
     integer :: i
     longest = zero
     do i = 1, 3

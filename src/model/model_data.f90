@@ -7,6 +7,7 @@ module model_data
   use base_strings, only: to_text
   use deck_names, only: table_count, field_names, step_fixed, overlap_error
   use material_base, only: material_slot_t
+  use model_mesh, only: mesh_t
   use model_rigid, only: rigid_t
   implicit none
   private
@@ -213,12 +214,7 @@ module model_data
     real(wp), allocatable :: x(:, :)         !< (2, nodes) [L]
     real(wp), allocatable :: v0(:, :)        !< (2, nodes) initial velocity [L/T]
     logical, allocatable :: fixed(:, :)      !< (2, nodes)
-    integer :: elements = 0
-    integer, allocatable :: element_id(:)
-    integer, allocatable :: element_part(:)
-    integer, allocatable :: element_record(:)
-    !> (4, elements) rows of nodes; a triangle has its third node twice
-    integer, allocatable :: connectivity(:, :)
+    type(mesh_t) :: mesh
     type(part_t), allocatable :: part(:)
     type(rigid_t), allocatable :: rigid      !< only where parts are rigid
     type(material_slot_t), allocatable :: material(:)
@@ -240,7 +236,7 @@ module model_data
     type(controls_t) :: controls
   end type model_t
 
-  public :: count_steps, curve_value, curve_slope, node_count, segment_owner, node_name
+  public :: count_steps, curve_value, curve_slope, segment_owner, node_name
 
 contains
 
@@ -309,12 +305,6 @@ contains
     end do
   end function node_name
 
-  !> 3 for a triangle, 4 for a quadrilateral.
-  pure integer function node_count(corner)
-    integer, intent(in) :: corner(4)
-    node_count = merge(3, 4, corner(3) == corner(4))
-  end function node_count
-
   !> For each segment (two nodes) the one element that has it as an edge, and on which side: > 0
   !> when the element runs from the first to the second node, < 0 when the other way; 0 when no
   !> element or more than one has this edge.
@@ -324,7 +314,7 @@ contains
     integer :: owner(size(segment, 2))
     integer, allocatable :: first(:), next(:)
     integer, allocatable :: hits(:)
-    integer :: e, k, s, a, b
+    integer :: e, f, s, a, b, node(2)
     allocate (first(model%nodes), next(size(segment, 2)), hits(size(segment, 2)))
     first = 0
     do s = 1, size(segment, 2)
@@ -334,10 +324,11 @@ contains
     end do
     owner = 0
     hits = 0
-    do e = 1, model%elements
-      do k = 1, node_count(model%connectivity(:, e))
-        a = model%connectivity(k, e)
-        b = model%connectivity(1 + mod(k, node_count(model%connectivity(:, e))), e)
+    do e = 1, model%mesh%n
+      do f = 1, model%mesh%faces_of(e)
+        node = model%mesh%face_of(f, e)
+        a = node(1)
+        b = node(2)
         s = first(min(a, b))
         do while (s > 0)
           if (maxval(segment(:, s)) == max(a, b)) then

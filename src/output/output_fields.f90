@@ -8,9 +8,8 @@ module output_fields
   use contact_pairing, only: no_gap
   use contact_types, only: contact_t
   use element_base, only: element_t
-  use element_registry, only: make_element
   use deck_names, only: field_names
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use model_state, only: state_t
   use output_storage, only: mesh_t, field_t
   use output_table, only: next_due
@@ -52,7 +51,7 @@ contains
         n = n + 1
         call shape_field(field_names(k), size(fields%node), size(fields%cell), fields%field(n))
         if (field_names(k) == 'PART') fields%field(n)%values(1, :) = &
-            real(model%part(model%element_part(fields%cell))%id, wp)
+            real(model%part(model%mesh%part(fields%cell))%id, wp)
         if (field_names(k) == 'STRESS' .or. field_names(k) == 'PRINCIPAL') &
             call make_stress(model, fields)
         if (field_names(k) == 'PRINCIPAL') allocate (fields%stress(6, size(fields%cell)))
@@ -65,17 +64,17 @@ contains
     type(fields_t), intent(inout) :: fields
     logical, allocatable :: part(:), node(:), cell(:)
     integer :: e, k
-    allocate (part(size(model%part)), node(model%nodes), cell(model%elements))
+    allocate (part(size(model%part)), node(model%nodes), cell(model%mesh%n))
     part = model%requests%field%part_set == 0
     if (model%requests%field%part_set > 0) &
         part(model%part_set(model%requests%field%part_set)%member) = .true.
     node = .false.
-    do e = 1, model%elements
-      cell(e) = part(model%element_part(e))
-      if (cell(e)) node(model%connectivity(:, e)) = .true.
+    do e = 1, model%mesh%n
+      cell(e) = part(model%mesh%part(e))
+      if (cell(e)) node(model%mesh%nodes_of(e)) = .true.
     end do
     fields%node = pack([(k, k=1, model%nodes)], node)
-    fields%cell = pack([(k, k=1, model%elements)], cell)
+    fields%cell = pack([(k, k=1, model%mesh%n)], cell)
   end subroutine choose_cells
 
   pure subroutine shape_field(name, nodes, cells, field)
@@ -102,19 +101,19 @@ contains
   subroutine make_stress(model, fields)
     type(model_t), intent(in) :: model
     type(fields_t), intent(inout) :: fields
-    class(element_t), allocatable :: element
     real(wp) :: b(3, 8), stress(3)
-    integer :: k, c, n, nodes_before
+    integer :: k, c, e, n
     if (allocated(fields%stress_of)) return
     allocate (fields%stress_of(4, 8, size(fields%cell)))
     fields%stress_of = zero
-    fields%cell_node = model%connectivity(:, fields%cell)
-    nodes_before = 0
+    allocate (fields%cell_node(4, size(fields%cell)))
     do k = 1, size(fields%cell)
-      n = node_count(fields%cell_node(:, k))
-      if (n /= nodes_before) call make_element(n, element)
-      nodes_before = n
-      associate (part => model%part(model%element_part(fields%cell(k))))
+      e = fields%cell(k)
+      n = model%mesh%count_of(e)
+      fields%cell_node(:n, k) = model%mesh%nodes_of(e)
+      fields%cell_node(n + 1:, k) = fields%cell_node(n, k)
+      associate (part => model%part(model%mesh%part(e)), &
+          element => model%mesh%kind(model%mesh%type(e))%item)
         associate (material => model%material(part%material)%item)
           call element%mean_strain_matrix(model%x(:, fields%cell_node(1:n, k)), b(:, 1:2*n))
           b(:, 1:2*n) = matmul(material%moduli(part%plane), b(:, 1:2*n))
@@ -137,20 +136,20 @@ contains
     integer :: k, n, at
     allocate (number(model%nodes), mesh%points(3, size(fields%node)))
     allocate (mesh%kind(size(fields%cell)), mesh%offsets(size(fields%cell) + 1))
-    allocate (mesh%connectivity(4*size(fields%cell)))
+    allocate (mesh%connectivity(sum([(model%mesh%count_of(fields%cell(k)), &
+        k=1, size(fields%cell))])))
     number(fields%node) = [(k - 1, k=1, size(fields%node))]
     mesh%points = zero
     mesh%points(1:2, :) = model%x(:, fields%node)
     at = 0
     mesh%offsets(1) = 0
     do k = 1, size(fields%cell)
-      n = node_count(model%connectivity(:, fields%cell(k)))
-      mesh%connectivity(at + 1:at + n) = number(model%connectivity(1:n, fields%cell(k)))
-      mesh%kind(k) = merge(9, 5, n == 4)
+      n = model%mesh%count_of(fields%cell(k))
+      mesh%connectivity(at + 1:at + n) = number(model%mesh%nodes_of(fields%cell(k)))
+      mesh%kind(k) = model%mesh%kind(model%mesh%type(fields%cell(k)))%item%vtk
       at = at + n
       mesh%offsets(k + 1) = at
     end do
-    mesh%connectivity = mesh%connectivity(:at)
   end subroutine make_mesh
 
   !> True when a frame is due: as rows of tables, between TBEG and TEND.

@@ -9,7 +9,7 @@ module output_rows
   use base_timers, only: timers_t, phase_input, phase_assemble, phase_factor, phase_solve, &
       phase_search, phase_contact, phase_output
   use element_base, only: most_nodes
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use model_state, only: state_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers, add_vector
@@ -124,22 +124,22 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: stress(3), x(2, most_nodes), u(2, most_nodes)
+    real(wp) :: stress(3), x(size(model%x, 1), most_nodes), u(size(model%x, 1), most_nodes)
     integer :: k, e, n, i
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
-      n = node_count(model%connectivity(:, e))
+      n = model%mesh%count_of(e)
       do i = 1, n
-        x(:, i) = model%x(:, model%connectivity(i, e))
-        u(:, i) = state%u(:, model%connectivity(i, e))
+        x(:, i) = model%x(:, model%mesh%node_of(i, e))
+        u(:, i) = state%u(:, model%mesh%node_of(i, e))
       end do
-      associate (part => model%part(model%element_part(e)))
+      associate (part => model%part(model%mesh%part(e)))
         associate (material => model%material(part%material)%item)
           stress = matmul(material%moduli(part%plane), &
-              system%element(n)%item%mean_strain(x(:, :n), u(:, :n)))
+              model%mesh%kind(model%mesh%type(e))%item%mean_strain(x(:, :n), u(:, :n)))
           call begin_row(file, status)
           call add_number(file, writer, state%time)
-          call add_count(file, model%element_id(e))
+          call add_count(file, model%mesh%id(e))
           call add_count(file, part%id)
           call add_numbers(file, writer, &
               [stress(1), stress(2), material%out_of_plane_stress(part%plane, stress), &

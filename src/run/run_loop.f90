@@ -434,8 +434,8 @@ contains
     if (size(run%model%contact) > 0) &
         element = first_inverted(run%system, run%model%x, run%state%u)
     if (element > 0) call fail(status, status_numerical, 'element '// &
-        to_text(run%model%element_id(element))//', at node '//to_text(run%model%node_id( &
-        run%model%connectivity(1, element)))//', is turned inside out: its boundary is not '// &
+        to_text(run%model%mesh%id(element))//', at node '//to_text(run%model%node_id( &
+        run%model%mesh%node_of(1, element)))//', is turned inside out: its boundary is not '// &
         'that of a body any more', &
         hint='check the loads and motions; take a smaller step')
     if (failed(status)) call add_place(status, moment(run))

@@ -68,7 +68,7 @@ contains
     integer, intent(in) :: unit
     integer :: k
     write (unit, '(a)') 'scene: '//to_text(run%model%mesh_nodes)//' nodes, '// &
-        to_text(run%model%elements)//' elements, '//to_text(size(run%model%part))// &
+        to_text(run%model%mesh%n)//' elements, '//to_text(size(run%model%part))// &
         ' parts; scheme '//trim(run%model%controls%scheme)//', mass '// &
         trim(run%model%controls%mass)
     write (unit, '(a)') 'plan:'

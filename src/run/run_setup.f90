@@ -143,7 +143,7 @@ contains
     element = first_inverted(run%system, run%model%x, run%state%u)
     deallocate (run%state%u)
     if (element > 0) call fail(status, status_deck, 'OVERLAP ADJUST turns element '// &
-        to_text(run%model%element_id(element))//' inside out', &
+        to_text(run%model%mesh%id(element))//' inside out', &
         hint='the overlap is as deep as the element: move the bodies apart in the mesh')
   end subroutine tell_moved
 

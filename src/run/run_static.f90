@@ -5,11 +5,12 @@
 !> until eps M (x_k+1 - x_k), the residual of equilibrium, is small: the limit has no trace of
 !> eps. Where there is no equilibrium, the same move comes again and again.
 module run_static
+  use assembly_blocks, only: largest_stiffness
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use run_data, only: run_t
   implicit none
   private
@@ -35,9 +36,9 @@ contains
       size_2 = max(maxval(model%x(1, :), body == b) - minval(model%x(1, :), body == b), &
           maxval(model%x(2, :), body == b) - minval(model%x(2, :), body == b))**2
       c_2 = zero
-      do e = 1, model%elements
-        if (body(model%connectivity(1, e)) /= b) cycle
-        associate (p => model%part(model%element_part(e)))
+      do e = 1, model%mesh%n
+        if (body(model%mesh%node_of(1, e)) /= b) cycle
+        associate (p => model%part(model%mesh%part(e)))
           c_2 = max(c_2, model%material(p%material)%item%wave_speed(p%plane)**2)
         end associate
       end do
@@ -83,7 +84,8 @@ contains
             *maxval(abs(model%curve(g%curve)%o))
       end associate
     end do
-    if (.not. force > zero) force = factor*extent*max(maxval(system%stiffness), tiny(one))
+    if (.not. force > zero) force = factor*extent* &
+        max(largest_stiffness(system%block), tiny(one))
     do p = 1, size(model%rigid%part)
       shift(model%rigid%centre(p)) = force/extent
       shift(model%rigid%rotor(p)) = force/extent
@@ -97,10 +99,10 @@ contains
     integer, allocatable :: number(:)
     integer :: e, i, k, a, b, n
     body = [(i, i=1, model%nodes)]
-    do e = 1, model%elements
-      a = root(body, model%connectivity(1, e))
-      do k = 2, node_count(model%connectivity(:, e))
-        b = root(body, model%connectivity(k, e))
+    do e = 1, model%mesh%n
+      a = root(body, model%mesh%node_of(1, e))
+      do k = 2, model%mesh%count_of(e)
+        b = root(body, model%mesh%node_of(k, e))
         body(max(a, b)) = min(a, b)
         a = min(a, b)
       end do
@@ -221,14 +223,14 @@ contains
     integer :: e, i, part
     i = maxloc(sum(run%move**2, dim=1), dim=1)
     part = 1
-    do e = 1, run%model%elements
-      if (any(run%model%connectivity(:, e) == i)) part = run%model%element_part(e)
+    do e = 1, run%model%mesh%n
+      if (any(run%model%mesh%nodes_of(e) == i)) part = run%model%mesh%part(e)
     end do
     if (i > run%model%mesh_nodes) part = run%model%rigid%part(1 + mod(i - &
         run%model%mesh_nodes - 1, size(run%model%rigid%part)))
     is_of = .false.
-    do e = 1, run%model%elements
-      if (run%model%element_part(e) == part) is_of(run%model%connectivity(:, e)) = .true.
+    do e = 1, run%model%mesh%n
+      if (run%model%mesh%part(e) == part) is_of(run%model%mesh%nodes_of(e)) = .true.
     end do
     mean = sum(run%move, dim=2, mask=spread(is_of, 1, 2))/count(is_of)
     centre = sum(run%model%x, dim=2, mask=spread(is_of, 1, 2))/count(is_of)

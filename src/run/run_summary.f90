@@ -160,7 +160,7 @@ contains
     type(run_t), intent(in) :: run
     call json%open('{', 'scene')
     call json%put(run%model%mesh_nodes, 'nodes')
-    call json%put(run%model%elements, 'elements')
+    call json%put(run%model%mesh%n, 'elements')
     call json%put(size(run%model%part), 'parts')
     call json%put(trim(run%model%controls%scheme), 'scheme')
     call json%put(trim(run%model%controls%mass), 'mass')

@@ -112,7 +112,7 @@ contains
     type(run_t), intent(in) :: run
     character(*), intent(in) :: since
     character(:), allocatable :: text
-    text = 'element '//to_text(run%model%element_id(run%rotation_element))//' turned by '// &
+    text = 'element '//to_text(run%model%mesh%id(run%rotation_element))//' turned by '// &
         to_text(run%rotation*180.0_wp/acos(-one))//' degrees; first beyond ROTWARN at '// &
         since//': the kinematics of small displacements take it for a strain of '// &
         to_text(one - cos(run%rotation))//'; end the run before'
@@ -146,6 +146,7 @@ contains
     type(run_t), intent(in) :: run
     integer, intent(in) :: p
     character(:), allocatable :: text
+    integer :: e
     associate (sum => run%bending%sum(p))
       text = 'part '//to_text(run%model%part(p)%id)//': '//percent(sum%modes/sum%strain)// &
           ' of its strain energy is in bending modes of its elements, which cost '// &
@@ -154,8 +155,8 @@ contains
           percent(excess(sum))//' too little under a load; most at '// &
           step_of_look(run, run%bending%step(p))
     end associate
-    if (any(run%model%element_part == p .and. run%model%connectivity(3, :) &
-        == run%model%connectivity(4, :))) then
+    if (any([(run%model%mesh%part(e) == p .and. run%model%mesh%is_of_type(e, 'TRI3'), &
+        e=1, run%model%mesh%n)])) then
       text = text//': take quadrilaterals, or eight triangles or more over the height'
     else
       text = text//': take three elements or more over the height'

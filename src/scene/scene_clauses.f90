@@ -4,7 +4,7 @@
 module scene_clauses
   use base_kinds, only: wp
   use deck_data, only: deck_t
-  use model_data, only: model_t, node_count, segment_owner
+  use model_data, only: model_t, segment_owner
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -65,7 +65,7 @@ contains
     character(:), allocatable :: option
     logical :: adds
     integer :: r, k, named_row(most_named), n
-    allocate (in_set(merge(model%nodes, model%elements, kind == 'NODE')))
+    allocate (in_set(merge(model%nodes, model%mesh%n, kind == 'NODE')))
     in_set = .false.
     do r = head + 1, deck%block(deck%record(head)%block)%last
       call split_option(deck, r, option, adds)
@@ -181,15 +181,15 @@ contains
     integer :: e
     if (option == 'PART') then
       call mark_named(deck, maps%part, record, 'part', size(model%part), group)
-      element = group(model%element_part)
+      element = group(model%mesh%part)
       node = spread(.false., 1, model%nodes)
-      do e = 1, model%elements
-        if (element(e)) node(model%connectivity(:, e)) = .true.
+      do e = 1, model%mesh%n
+        if (element(e)) node(model%mesh%nodes_of(e)) = .true.
       end do
     else
       call mark_named(deck, maps%box, record, 'box', size(box), group)
       node = in_boxes(model, pack(box, group))
-      element = [(all(node(model%connectivity(:, e))), e=1, model%elements)]
+      element = [(all(node(model%mesh%nodes_of(e))), e=1, model%mesh%n)]
     end if
     if (kind == 'NODE') named = node
     if (kind /= 'NODE') named = element
@@ -231,7 +231,7 @@ contains
     logical, allocatable :: node(:), group(:)
     if (option == 'PART') then
       call mark_named(deck, maps%part, record, 'part', size(model%part), group)
-      named = group(model%element_part(edges%owner))
+      named = group(model%mesh%part(edges%owner))
     else
       call mark_named(deck, maps%box, record, 'box', size(box), group)
       node = in_boxes(model, pack(box, group))
@@ -258,17 +258,15 @@ contains
     type(model_t), intent(in) :: model
     type(edges_t), intent(out) :: edges
     integer, allocatable :: edge(:, :), owner(:)
-    integer :: e, k, n, c
-    allocate (edge(2, 4*model%elements))
+    integer :: e, f, n
+    allocate (edge(2, sum([(model%mesh%faces_of(e), e=1, model%mesh%n)])))
     n = 0
-    do e = 1, model%elements
-      c = node_count(model%connectivity(:, e))
-      do k = 1, c
+    do e = 1, model%mesh%n
+      do f = 1, model%mesh%faces_of(e)
         n = n + 1
-        edge(:, n) = [model%connectivity(k, e), model%connectivity(1 + mod(k, c), e)]
+        edge(:, n) = model%mesh%face_of(f, e)
       end do
     end do
-    edge = edge(:, 1:n)
     owner = segment_owner(model, edge)
     edges%node = reshape(pack(edge, spread(owner /= 0, 1, 2)), [2, count(owner /= 0)])
     edges%owner = abs(pack(owner, owner /= 0))

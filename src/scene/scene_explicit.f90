@@ -5,10 +5,8 @@ module scene_explicit
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note, add_problem
-  use element_base, only: element_slot_t
   use element_limit, only: stable_step
-  use element_registry, only: make_element
-  use model_data, only: model_t, controls_t, node_count
+  use model_data, only: model_t, controls_t
   implicit none
   private
   public :: read_timestep, find_step
@@ -100,25 +98,22 @@ contains
   !> The smallest of the largest stable steps of all elements, and the first that has it.
   subroutine find_limit(model)
     type(model_t), intent(inout) :: model
-    type(element_slot_t) :: element(3:4)
     real(wp) :: h
-    integer :: e, n
-    call make_element(3, element(3)%item)
-    call make_element(4, element(4)%item)
+    integer :: e
     associate (c => model%controls)
-      do e = 1, model%elements
-        if (model%part(model%element_part(e))%is_rigid) cycle
-        n = node_count(model%connectivity(:, e))
-        associate (part => model%part(model%element_part(e)))
+      do e = 1, model%mesh%n
+        if (model%part(model%mesh%part(e))%is_rigid) cycle
+        associate (part => model%part(model%mesh%part(e)))
           associate (material => model%material(part%material)%item)
-            call stable_step(element(n)%item, model%x(:, model%connectivity(1:n, e)), &
-                material%density, material%moduli(part%plane), part%thickness, h)
+            call stable_step(model%mesh%kind(model%mesh%type(e))%item, &
+                model%x(:, model%mesh%nodes_of(e)), material%density, &
+                material%moduli(part%plane), part%thickness, h)
           end associate
         end associate
-        h = damped_step(model, model%element_part(e), h)
+        h = damped_step(model, model%mesh%part(e), h)
         if (h >= c%step_limit*(one - slack)) cycle
         c%step_limit = h
-        c%limit_element = model%element_id(e)
+        c%limit_element = model%mesh%id(e)
       end do
     end associate
   end subroutine find_limit

@@ -232,7 +232,7 @@ contains
         end if
         d = model%x(:, load%node(2*s)) - model%x(:, load%node(2*s - 1))
         if (owner(s) < 0) d = -d
-        d = half*model%part(model%element_part(abs(owner(s))))%thickness*[-d(2), d(1)]
+        d = half*model%part(model%mesh%part(abs(owner(s))))%thickness*[-d(2), d(1)]
         load%force(:, 2*s - 1) = d
         load%force(:, 2*s) = d
       end do

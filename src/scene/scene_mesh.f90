@@ -5,9 +5,7 @@ module scene_mesh
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note, full, add_problem
-  use element_base, only: element_t
-  use element_registry, only: make_element
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use scene_ids, only: maps_t, make_id_map, records_of
   implicit none
   private
@@ -52,22 +50,27 @@ contains
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
-    integer :: k, n
-    call records_of(deck, 'ELEMENT_SHELL', 1, model%element_record)
-    n = size(model%element_record)
-    model%elements = n
-    allocate (model%element_id(n), model%element_part(n), model%connectivity(4, n))
+    integer, allocatable :: record(:)
+    integer :: k, n, part, corner(4)
+    call records_of(deck, 'ELEMENT_SHELL', 1, record)
+    n = size(record)
+    call model%mesh%start(n, 4*n)
     do k = 1, n
-      associate (r => model%element_record(k))
-        model%element_id(k) = nint(deck%number_at(r, 1))
-        model%element_part(k) = maps%part%find(nint(deck%number_at(r, 2)))
-        if (model%element_part(k) == 0) &
+      associate (r => record(k))
+        part = maps%part%find(nint(deck%number_at(r, 2)))
+        if (part == 0) &
             call deck%complain(r, 'PID', 'part '//to_text(nint(deck%number_at(r, 2)))// &
             ' is not defined', 'add a *PART with this number')
-        call read_corners(deck, r, maps, model%connectivity(:, k))
+        call read_corners(deck, r, maps, corner)
+        if (corner(3) == corner(4)) then
+          call model%mesh%add('TRI3', nint(deck%number_at(r, 1)), part, r, corner(:3))
+        else
+          call model%mesh%add('QUAD4', nint(deck%number_at(r, 1)), part, r, corner)
+        end if
       end associate
     end do
-    call make_id_map(deck, 'element', 'EID', model%element_id, model%element_record, &
+    call model%mesh%make_blocks()
+    call make_id_map(deck, 'element', 'EID', model%mesh%id, model%mesh%record, &
         maps%element)
     if (n == 0) &
         call add_problem(deck%problems, deck%file(1)%path//': the deck has no *ELEMENT_SHELL')
@@ -119,9 +122,9 @@ contains
     allocate (used(model%nodes), part_used(size(model%part)))
     used = .false.
     part_used = .false.
-    do k = 1, model%elements
-      used(model%connectivity(:, k)) = .true.
-      part_used(model%element_part(k)) = .true.
+    do k = 1, model%mesh%n
+      used(model%mesh%nodes_of(k)) = .true.
+      part_used(model%mesh%part(k)) = .true.
     end do
     do k = 1, size(model%part)
       if (.not. part_used(k)) call deck%complain(model%part(k)%record, 'PID', 'part '// &
@@ -138,25 +141,19 @@ contains
   subroutine check_shapes(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
-    class(element_t), allocatable :: triangle, quadrilateral
     real(wp) :: jacobian
     integer :: e
-    call make_element(3, triangle)
-    call make_element(4, quadrilateral)
-    do e = 1, model%elements
-      associate (corner => model%connectivity(:, e))
-        if (node_count(corner) == 3) then
-          jacobian = triangle%smallest_jacobian(model%x(:, corner(1:3)))
-          if (model%controls%mass == 'DISPERSION') call deck%complain(model%element_record(e), &
-              '', 'element '//to_text(model%element_id(e))// &
-              ' is a triangle: the mass DISPERSION is defined for quadrilaterals', &
-              'choose another TYPE on *BIPACT_MASS')
-        else
-          jacobian = quadrilateral%smallest_jacobian(model%x(:, corner))
-        end if
+    do e = 1, model%mesh%n
+      associate (element => model%mesh%kind(model%mesh%type(e))%item)
+        if (element%name == 'TRI3' .and. model%controls%mass == 'DISPERSION') &
+            call deck%complain(model%mesh%record(e), &
+            '', 'element '//to_text(model%mesh%id(e))// &
+            ' is a triangle: the mass DISPERSION is defined for quadrilaterals', &
+            'choose another TYPE on *BIPACT_MASS')
+        jacobian = element%smallest_jacobian(model%x(:, model%mesh%nodes_of(e)))
         if (jacobian > zero) cycle
-        call deck%complain(model%element_record(e), '', 'element '// &
-            to_text(model%element_id(e))//' is clockwise, degenerate or not convex', &
+        call deck%complain(model%mesh%record(e), '', 'element '// &
+            to_text(model%mesh%id(e))//' is clockwise, degenerate or not convex', &
             'list its nodes counter-clockwise')
         if (full(deck%problems)) return
       end associate

@@ -203,10 +203,10 @@ contains
         if (row > 0) taken(model%node_set(row)%member) = .true.
       end select
     end if
-    do k = 1, model%elements
-      if (model%element_part(k) == 0) cycle
-      if (wanted(model%element_part(k))) &
-          taken(pack(model%connectivity(:, k), model%connectivity(:, k) > 0)) = .true.
+    do k = 1, model%mesh%n
+      if (model%mesh%part(k) == 0) cycle
+      if (wanted(model%mesh%part(k))) &
+          taken(pack(model%mesh%nodes_of(k), model%mesh%nodes_of(k) > 0)) = .true.
     end do
     list = pack([(k, k=1, model%nodes)], taken)
   end subroutine generation_nodes

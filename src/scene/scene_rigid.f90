@@ -6,7 +6,7 @@ module scene_rigid
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_problem
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use scene_ids, only: maps_t, records_of, find_or_complain
   use scene_rigid_cards, only: body_t, read_constraints, read_velocities, read_forces, &
       read_rigid_motions
@@ -151,10 +151,10 @@ contains
     mass = zero
     sum_first = zero
     sum_second = zero
-    origin = model%x(:, model%connectivity(1, findloc(model%element_part, p, dim=1)))
-    do e = 1, model%elements
-      if (model%element_part(e) /= p) cycle
-      associate (c => model%connectivity(:node_count(model%connectivity(:, e)), e))
+    origin = model%x(:, model%mesh%node_of(1, findloc(model%mesh%part, p, dim=1)))
+    do e = 1, model%mesh%n
+      if (model%mesh%part(e) /= p) cycle
+      associate (c => model%mesh%nodes_of(e))
         call moments_of_area(model%x(:, c) - spread(origin, 2, size(c)), m, first, second)
       end associate
       mass = mass + m
@@ -197,11 +197,11 @@ contains
     type(body_t), intent(inout) :: body(:)
     integer :: owner(model%nodes), e, k, b
     owner = -1
-    do e = 1, model%elements
-      do k = 1, node_count(model%connectivity(:, e))
-        associate (i => model%connectivity(k, e), p => model%element_part(e))
+    do e = 1, model%mesh%n
+      do k = 1, model%mesh%count_of(e)
+        associate (i => model%mesh%node_of(k, e), p => model%mesh%part(e))
           if (owner(i) == -1) owner(i) = p
-          if (body_of(owner(i)) /= body_of(p)) call deck%complain(model%element_record(e), &
+          if (body_of(owner(i)) /= body_of(p)) call deck%complain(model%mesh%record(e), &
               'N'//achar(48 + k), 'node '//to_text(model%node_id(i))//' belongs to part '// &
               to_text(model%part(owner(i))%id)//' and to part '//to_text(model%part(p)%id)// &
               ', and a rigid part shares no node with another one', 'give each part nodes '// &

@@ -99,8 +99,8 @@ contains
     case (side_segment_set)
       node(reshape(model%segment_set(row)%node, [size(model%segment_set(row)%node)])) = .true.
     end select
-    do e = 1, model%elements
-      if (any(node(model%connectivity(:, e)))) is_in(model%element_part(e)) = .true.
+    do e = 1, model%mesh%n
+      if (any(node(model%mesh%nodes_of(e)))) is_in(model%mesh%part(e)) = .true.
     end do
   end function parts_at
 

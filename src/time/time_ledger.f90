@@ -7,7 +7,7 @@ module time_ledger
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, half, one
   use contact_work, only: contact_work_t
-  use model_data, only: model_t, node_count
+  use model_data, only: model_t
   use model_state, only: state_t
   use time_base, only: staggered_t
   implicit none
@@ -90,9 +90,9 @@ contains
     allocate (ledger%owner(model%nodes), elements_of(model%nodes))
     ledger%owner = -1
     elements_of = 0
-    do e = 1, model%elements
-      do k = 1, node_count(model%connectivity(:, e))
-        associate (i => model%connectivity(k, e), part => model%element_part(e))
+    do e = 1, model%mesh%n
+      do k = 1, model%mesh%count_of(e)
+        associate (i => model%mesh%node_of(k, e), part => model%mesh%part(e))
           elements_of(i) = elements_of(i) + 1
           if (ledger%owner(i) == -1) ledger%owner(i) = part
           if (ledger%owner(i) /= part) ledger%owner(i) = 0
@@ -102,13 +102,13 @@ contains
     do pass = 1, 2
       if (pass == 2) allocate (ledger%shared(2, n), ledger%share(n))
       n = 0
-      do e = 1, model%elements
-        do k = 1, node_count(model%connectivity(:, e))
-          if (ledger%owner(model%connectivity(k, e)) /= 0) cycle
+      do e = 1, model%mesh%n
+        do k = 1, model%mesh%count_of(e)
+          if (ledger%owner(model%mesh%node_of(k, e)) /= 0) cycle
           n = n + 1
           if (pass == 1) cycle
-          ledger%shared(:, n) = [model%connectivity(k, e), model%element_part(e)]
-          ledger%share(n) = one/elements_of(model%connectivity(k, e))
+          ledger%shared(:, n) = [model%mesh%node_of(k, e), model%mesh%part(e)]
+          ledger%share(n) = one/elements_of(model%mesh%node_of(k, e))
         end do
       end do
     end do
@@ -184,13 +184,13 @@ contains
     real(wp) :: middle(2, merge(model%nodes, 0, ledger%staggered%on))
     real(wp) :: rest(size(ledger%part_internal))
     if (.not. ledger%staggered%on) then
-      call strain_energies(system, model%element_part, state%u, ledger%part_internal)
+      call strain_energies(system, model%mesh%part, state%u, ledger%part_internal)
       return
     end if
     middle = state%u - half*state%du
-    call strain_energies(system, model%element_part, middle, ledger%part_internal)
+    call strain_energies(system, model%mesh%part, middle, ledger%part_internal)
     if (.not. abs(ledger%staggered%share) > zero) return
-    call strain_energies(system, model%element_part, state%du, rest)
+    call strain_energies(system, model%mesh%part, state%du, rest)
     ledger%part_internal = ledger%part_internal + ledger%staggered%share*rest
   end subroutine find_internal
 

@@ -183,7 +183,7 @@ contains
     integer :: before, table, k
     call start(deck, 0.5_wp, run, status)
     run%model%requests%history_node = [(k, k=1, min(14, run%model%nodes))]
-    run%model%requests%history_element = [(k, k=1, min(6, run%model%elements))]
+    run%model%requests%history_element = [(k, k=1, min(6, run%model%mesh%n))]
     call open_tables(run%tables, run%model, '.', run%scheme%has_acceleration, .false., status)
     do k = 1, steps
       call advance(run, status)

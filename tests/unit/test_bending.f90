@@ -23,8 +23,8 @@ program test_bending
 
   call test_start('bending')
   call seed_random(1203)
-  call make_element(4, quad)
-  call make_element(3, triangle)
+  call make_element('QUAD4', quad)
+  call make_element('TRI3', triangle)
   do trial = 1, 200
     call random_number(poisson)
     poisson = 0.49_wp*poisson
@@ -140,11 +140,14 @@ contains
     real(wp) :: u(2, 6), energy
     integer :: k
     model%nodes = 6
-    model%elements = 4
     model%x = reshape([0.0_wp, 0.0_wp, 4.0_wp, 0.0_wp, 0.0_wp, 3.0_wp, 4.0_wp, 3.0_wp, 3.0_wp, &
         5.0_wp, 7.0_wp, 1.0_wp], [2, 6])
-    model%connectivity = reshape([1, 2, 3, 3, 2, 4, 3, 3, 3, 4, 5, 5, 2, 6, 4, 4], [4, 4])
-    model%element_part = [1, 1, 1, 2]
+    call model%mesh%start(4, 12)
+    call model%mesh%add('TRI3', 1, 1, 0, [1, 2, 3])
+    call model%mesh%add('TRI3', 2, 1, 0, [3, 2, 4])
+    call model%mesh%add('TRI3', 3, 1, 0, [3, 4, 5])
+    call model%mesh%add('TRI3', 4, 2, 0, [2, 6, 4])
+    call model%mesh%make_blocks()
     allocate (model%part(2), model%material(1))
     allocate (model%material(1)%item, source=material)
     do k = 1, 2

@@ -1,0 +1,123 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The elements in blocks of one type and part, each with its nodes and stiffness.
+module assembly_blocks
+  use base_kinds, only: wp, zero
+  use model_data, only: model_t
+  implicit none
+  private
+
+  !> Elements first..last of one type and part.
+  type, public :: element_block_t
+    integer :: first = 0, last = 0
+    integer :: nodes = 0                    !< of an element
+    logical :: is_rigid = .false.           !< never strained: no stiffness, not on the graph
+    integer, allocatable :: node(:, :)      !< (nodes, n) rows of nodes
+    !> (m, m, n) stiffness of the other nodes relative to node 1, m = dim (nodes - 1) [F/L]: a
+    !> translation of the element drops out before anything is multiplied, so a flying body has
+    !> no internal force at all.
+    real(wp), allocatable :: stiffness(:, :, :)
+  end type element_block_t
+
+  public :: make_blocks, assemble_stiffness, whole_stiffness, largest_stiffness
+
+contains
+
+  !> The blocks of the mesh with their nodes.
+  pure subroutine make_blocks(model, block, block_of)
+    type(model_t), intent(in) :: model
+    type(element_block_t), allocatable, intent(out) :: block(:)
+    integer, allocatable, intent(out) :: block_of(:)
+    integer :: b, n
+    allocate (block(size(model%mesh%block)), block_of(model%mesh%n))
+    do b = 1, size(block)
+      associate (own => block(b), from => model%mesh%block(b), mesh => model%mesh)
+        own%first = from%first
+        own%last = from%last
+        own%is_rigid = model%part(from%part)%is_rigid
+        own%nodes = mesh%count_of(from%first)
+        n = from%last - from%first + 1
+        own%node = reshape(mesh%node(mesh%first(from%first):mesh%first(from%last + 1) - 1), &
+            [own%nodes, n])
+        block_of(from%first:from%last) = b
+      end associate
+    end do
+  end subroutine make_blocks
+
+  !> The stiffness of their elements.
+  subroutine assemble_stiffness(model, block)
+    type(model_t), intent(in) :: model
+    type(element_block_t), intent(inout) :: block(:)
+    integer :: b
+    do b = 1, size(block)
+      if (.not. block(b)%is_rigid) &
+          call block_stiffness(model, model%mesh%block(b)%part, block(b))
+    end do
+  end subroutine assemble_stiffness
+
+  subroutine block_stiffness(model, p, block)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: p
+    type(element_block_t), intent(inout) :: block
+    real(wp), allocatable :: ke(:, :)
+    integer :: i, m, d
+    d = size(model%x, 1)
+    m = d*block%nodes
+    allocate (ke(m, m), block%stiffness(m - d, m - d, size(block%node, 2)))
+    associate (part => model%part(p), &
+        element => model%mesh%kind(model%mesh%type(block%first))%item)
+      associate (moduli => model%material(part%material)%item%moduli(part%plane))
+        do i = 1, size(block%node, 2)
+          call element%stiffness(model%x(:, block%node(:, i)), moduli, part%thickness, ke)
+          block%stiffness(:, :, i) = ke(d + 1:, d + 1:)
+        end do
+      end associate
+    end associate
+  end subroutine block_stiffness
+
+  !> factor * K of an element, from the rows and columns relative to node 1: those of node 1 are
+  !> minus the sums of the others.
+  pure subroutine whole_stiffness(d, factor, k, ke)
+    integer, intent(in) :: d
+    real(wp), intent(in) :: factor, k(:, :)
+    real(wp), intent(out) :: ke(:, :)
+    integer :: i, m
+    m = size(ke, 1)
+    ke(d + 1:, d + 1:) = factor*k
+    do i = 1, d
+      ke(i, d + 1:) = -added(ke(i + d:m:d, d + 1:))
+    end do
+    ke(d + 1:, 1:d) = transpose(ke(1:d, d + 1:))
+    do i = 1, d
+      ke(i, 1:d) = -added(ke(i + d:m:d, 1:d))
+    end do
+  end subroutine whole_stiffness
+
+  !> Sum of the rows, in their order.
+  pure function added(row) result(total)
+    real(wp), intent(in) :: row(:, :)
+    real(wp) :: total(size(row, 2))
+    integer :: k
+    total = row(1, :)
+    do k = 2, size(row, 1)
+      total = total + row(k, :)
+    end do
+  end function added
+
+  !> Largest entry on a diagonal of element stiffness [F/L].
+  pure real(wp) function largest_stiffness(block)
+    type(element_block_t), intent(in) :: block(:)
+    integer :: b, e, i
+    largest_stiffness = zero
+    do b = 1, size(block)
+      if (block(b)%is_rigid) cycle
+      associate (k => block(b)%stiffness)
+        do e = 1, size(k, 3)
+          do i = 1, size(k, 1)
+            largest_stiffness = max(largest_stiffness, k(i, i, e))
+          end do
+        end do
+      end associate
+    end do
+  end function largest_stiffness
+
+end module assembly_blocks
