@@ -21,18 +21,18 @@ contains
     type(model_t), intent(in) :: model
     real(wp), intent(in) :: value(:)
     type(system_t), intent(inout) :: system
-    real(wp) :: mass(size(system%mass)), weight(size(model%part), 2)
+    real(wp) :: mass(size(system%mass)), weight(size(model%part), model%dim)
     integer :: d, i, k
     weight = zero
     do k = 1, size(value)
       associate (card => model%mass_damping(k))
-        do d = 1, 2
+        do d = 1, model%dim
           weight(card%part, d) = weight(card%part, d) + value(k)*card%scale(d)
         end do
       end associate
     end do
     associate (c => system%damping)
-      do d = 1, 2
+      do d = 1, model%dim
         call assemble_mass(model, system%graph, c%first, c%target, &
             weight(:, d), mass)
         if (system%mass_is_diagonal) then
@@ -44,7 +44,7 @@ contains
     end associate
   end subroutine set_mass_damping
 
-  !> f = f - factor * C v; v, f (2, n).
+  !> f = f - factor * C v; v, f (dim, n).
   subroutine subtract_damping_force(system, factor, v, f)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: factor
@@ -105,8 +105,8 @@ contains
     integer, intent(in) :: i
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: v(:, :)
-    real(wp), intent(inout) :: f(2)
-    real(wp) :: row(2)
+    real(wp), intent(inout) :: f(:)
+    real(wp) :: row(size(f))
     integer :: k
     associate (mass => system%damping%mass, graph => system%graph)
       row = zero

@@ -29,7 +29,7 @@ contains
     end do
   end subroutine subtract_internal_force
 
-  !> f = f - factor * C u; u, f (2, n).
+  !> f = f - factor * C u; u, f (dim, n).
   subroutine subtract_layer_force(system, factor, u, f)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: factor
@@ -38,7 +38,7 @@ contains
     call subtract_element_forces(system, system%massless_layer, factor, u, f)
   end subroutine subtract_layer_force
 
-  !> f = f - factor * K u of some elements, in their order; u, f (2, n).
+  !> f = f - factor * K u of some elements, in their order; u, f (dim, n).
   subroutine subtract_element_forces(system, elements, factor, u, f)
     type(system_t), intent(in) :: system
     integer, intent(in) :: elements(:)

@@ -21,7 +21,7 @@ module assembly_part
 
 contains
 
-  !> The part that gives A x at the nodes marked, whatever x (2, n).
+  !> The part that gives A x at the nodes marked, whatever x (dim, n).
   subroutine rows_of_nodes(system, marked, part)
     type(system_t), intent(in) :: system
     logical, intent(in) :: marked(:)
@@ -31,7 +31,7 @@ contains
     call find_elements(system, marked, part)
   end subroutine rows_of_nodes
 
-  !> The part that gives A x at all nodes for an x (2, n) that is zero but at the nodes marked.
+  !> The part that gives A x at all nodes for an x (dim, n) that is zero but at those marked.
   subroutine columns_of_nodes(system, marked, part)
     type(system_t), intent(in) :: system
     logical, intent(in) :: marked(:)
@@ -64,7 +64,7 @@ contains
   end subroutine find_elements
 
   !> b = b - (cM M + cC C + cL L + cK K) x with the part, L = K of the layer; right at the nodes
-  !> that it was made for, or everywhere for its columns. x, b (2, n).
+  !> that it was made for, or everywhere for its columns. x, b (dim, n).
   subroutine subtract_part(system, part, c_m, c_c, c_layer, c_k, x, b)
     type(system_t), intent(in) :: system
     type(part_t), intent(in) :: part

@@ -16,7 +16,7 @@ module assembly_system
 
   !> Damping of the deck, C = (by direction) sum a_p M_p + sum |COEF_p| K_p over the parts.
   type, public :: damping_t
-    !> (2, *) sum a_p M_p by direction, on the graph or, where the mass is diagonal, by nodes
+    !> (dim, *) sum a_p M_p by direction, on the graph or, where the mass is diagonal, by nodes
     !> [M/T]; only with damping by mass
     real(wp), allocatable :: mass(:, :)
     integer, allocatable :: first(:), target(:)  !< where the mass of each node goes
@@ -40,7 +40,7 @@ module assembly_system
     integer, allocatable :: massless_body(:)   !< nodes without mass and element, all held
     !> Nodes without mass and stiffness: those that follow rigid parts; only with these
     integer, allocatable :: idle(:)
-    !> (2, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
+    !> (dim, n) dofs whose motion is given now, whether there are any, and (2, m) direction and
     !> node of each: set together, by CONSTRAIN
     logical, allocatable :: fixed(:, :)
     logical :: any_fixed = .false.
@@ -62,6 +62,7 @@ contains
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
     integer :: k
     system%n = model%nodes
+    system%dim = model%dim
     system%heavy = model%nodes - model%bodies
     if (allocated(model%rigid)) then
       system%heavy = system%heavy - size(model%rigid%rotor)
@@ -134,7 +135,7 @@ contains
       if (.not. allocated(model%mass_damping)) return
       d%first = first
       d%target = target
-      allocate (d%mass(2, merge(system%n, size(system%mass), system%mass_is_diagonal)))
+      allocate (d%mass(system%dim, merge(system%n, size(system%mass), system%mass_is_diagonal)))
       d%mass = zero
     end associate
   end subroutine make_damping
@@ -189,8 +190,9 @@ contains
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_c, c_layer, c_k
     type(block_matrix_t), intent(inout) :: matrix
-    integer :: e, i, k
-    if (.not. allocated(matrix%value)) allocate (matrix%value(2, 2, size(system%graph%column)))
+    integer :: e, i, k, d
+    if (.not. allocated(matrix%value)) allocate (matrix%value(system%dim, system%dim, &
+        size(system%graph%column)))
     matrix%value = zero
     if (abs(c_k) > zero) then
       do e = 1, size(system%block_of)
@@ -205,8 +207,9 @@ contains
     if (allocated(system%damping) .and. abs(c_c) > zero) &
         call add_damping(system, c_c, matrix)
     do k = 1, size(system%graph%column)
-      matrix%value(1, 1, k) = matrix%value(1, 1, k) + c_m*system%mass(k)
-      matrix%value(2, 2, k) = matrix%value(2, 2, k) + c_m*system%mass(k)
+      do d = 1, system%dim
+        matrix%value(d, d, k) = matrix%value(d, d, k) + c_m*system%mass(k)
+      end do
     end do
     if (allocated(system%idle)) call fill_idle(system, matrix)
     if (.not. system%any_fixed) return
@@ -218,8 +221,9 @@ contains
     end do
     do i = 1, size(system%massless_body)
       k = system%graph%position(system%massless_body(i), system%massless_body(i))
-      matrix%value(1, 1, k) = one
-      matrix%value(2, 2, k) = one
+      do d = 1, system%dim
+        matrix%value(d, d, k) = one
+      end do
     end do
   end subroutine effective_matrix
 
@@ -230,7 +234,7 @@ contains
     type(block_matrix_t), intent(inout) :: matrix
     integer :: k, d
     do k = 1, size(system%idle)
-      do d = 1, 2
+      do d = 1, system%dim
         call set_one(system, d, system%idle(k), matrix)
       end do
     end do
@@ -267,7 +271,7 @@ contains
       do i = 1, size(c%mass, 2)
         k = i
         if (system%mass_is_diagonal) k = system%graph%position(i, i)
-        do d = 1, 2
+        do d = 1, system%dim
           matrix%value(d, d, k) = matrix%value(d, d, k) + factor*c%mass(d, i)
         end do
       end do
@@ -280,7 +284,7 @@ contains
     type(block_matrix_t), intent(inout) :: matrix
     integer :: i
     if (allocated(matrix%value)) deallocate (matrix%value)
-    if (.not. allocated(matrix%diagonal)) allocate (matrix%diagonal(2, system%n))
+    if (.not. allocated(matrix%diagonal)) allocate (matrix%diagonal(system%dim, system%n))
     do i = 1, system%n
       matrix%diagonal(:, i) = c_m*system%lumped(i)
     end do
@@ -289,11 +293,11 @@ contains
   end subroutine diagonal_matrix
 
   pure subroutine clear_block(row, column, diagonal, block)
-    logical, intent(in) :: row(2), column(2), diagonal
-    real(wp), intent(inout) :: block(2, 2)
+    logical, intent(in) :: row(:), column(:), diagonal
+    real(wp), intent(inout) :: block(:, :)
     integer :: a, b
-    do b = 1, 2
-      do a = 1, 2
+    do b = 1, size(column)
+      do a = 1, size(row)
         if ((row(a) .or. column(b)) .and. .not. (diagonal .and. a == b)) block(a, b) = zero
       end do
     end do
@@ -344,19 +348,27 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(inout) :: y(:, :)
-    integer :: i
     if (system%mass_is_diagonal) then
-      do i = 1, system%n
-        y(1, i) = y(1, i) + factor*system%lumped(i)*x(1, i)
-        y(2, i) = y(2, i) + factor*system%lumped(i)*x(2, i)
-      end do
+      call diagonal_product(system%dim, system%n, system%lumped, factor, x, y)
     else
       call scalar_product(system%n, system%graph%first, system%graph%column, system%mass, &
           factor, x, y)
     end if
   end subroutine multiply_mass
 
-  !> p = M x and q = M y, all (2, n), for little more than one of them.
+  pure subroutine diagonal_product(dim, n, mass, factor, x, y)
+    integer, intent(in) :: dim, n
+    real(wp), intent(in) :: mass(n), factor, x(dim, n)
+    real(wp), intent(inout) :: y(dim, n)
+    integer :: d, i
+    do i = 1, n
+      do d = 1, dim
+        y(d, i) = y(d, i) + factor*mass(i)*x(d, i)
+      end do
+    end do
+  end subroutine diagonal_product
+
+  !> p = M x and q = M y, all (dim, n), for little more than one of them.
   subroutine mass_products(system, x, y, p, q)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), y(:, :)
@@ -384,8 +396,7 @@ contains
     if (system%mass_is_diagonal) then
       do k = 1, size(rows)
         associate (i => rows(k))
-          y(1, i) = y(1, i) + factor*system%lumped(i)*x(1, i)
-          y(2, i) = y(2, i) + factor*system%lumped(i)*x(2, i)
+          y(:, i) = y(:, i) + factor*system%lumped(i)*x(:, i)
         end associate
       end do
     else
@@ -393,7 +404,7 @@ contains
     end if
   end subroutine add_mass_rows
 
-  !> From now on the dofs that are marked (2, n) are fixed, and no others.
+  !> From now on the dofs that are marked (dim, n) are fixed, and no others.
   pure subroutine constrain(system, marked)
     type(system_t), intent(inout) :: system
     logical, intent(in) :: marked(:, :)
@@ -410,7 +421,7 @@ contains
     allocate (list(2, count(marked)))
     n = 0
     do k = 1, size(marked, 2)
-      do d = 1, 2
+      do d = 1, size(marked, 1)
         if (.not. marked(d, k)) cycle
         n = n + 1
         list(:, n) = [d, k]

@@ -6,6 +6,7 @@ module material_base
   private
   integer, parameter, public :: plane_stress = 12
   integer, parameter, public :: plane_strain = 13
+  integer, parameter, public :: in_space = 3
 
   type, abstract, public :: material_t
     integer :: id = 0
@@ -23,14 +24,15 @@ module material_base
   end type material_slot_t
 
   abstract interface
-    !> Elastic matrix D (3, 3) [F/L2] for (exx, eyy, gxy) in plane strain or plane stress.
+    !> Elastic matrix D [F/L2]: (3, 3) for (exx, eyy, gxy) in plane strain or plane stress, (6,
+    !> 6) for (exx, eyy, ezz, gxy, gyz, gzx) in space.
     pure function moduli_i(this, plane) result(d)
-      import :: material_t, wp
+      import :: material_t, wp, in_space
       class(material_t), intent(in) :: this
       integer, intent(in) :: plane
-      real(wp) :: d(3, 3)
+      real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
     end function moduli_i
-    !> Speed of plane pressure waves in this law [L/T].
+    !> Speed of pressure waves in this law, plane ones [L/T].
     pure function speed_i(this, plane) result(c)
       import :: material_t, wp
       class(material_t), intent(in) :: this

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Linear elastic, isotropic material in the plane.
+!> Linear elastic, isotropic material.
 module material_elastic
   use base_kinds, only: wp, zero, one, two, half
-  use material_base, only: material_t, plane_stress
+  use material_base, only: material_t, plane_stress, in_space
   implicit none
   private
 
@@ -21,7 +21,9 @@ contains
   pure function elastic_moduli(this, plane) result(d)
     class(elastic_t), intent(in) :: this
     integer, intent(in) :: plane
-    real(wp) :: d(3, 3), axial, ratio
+    real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
+    real(wp) :: axial, ratio
+    integer :: k
     if (plane == plane_stress) then
       axial = this%young/(one - this%poisson**2)
       ratio = this%poisson
@@ -30,6 +32,14 @@ contains
       ratio = this%poisson/(one - this%poisson)
     end if
     d = zero
+    if (plane == in_space) then
+      d(:3, :3) = ratio*axial
+      do k = 1, 3
+        d(k, k) = axial
+        d(3 + k, 3 + k) = half*this%young/(one + this%poisson)
+      end do
+      return
+    end if
     d(1, 1) = axial
     d(2, 2) = axial
     d(1, 2) = ratio*axial
@@ -37,11 +47,12 @@ contains
     d(3, 3) = half*this%young/(one + this%poisson)
   end function elastic_moduli
 
-  !> c_p: (lambda + 2G)/rho in plane strain, E/(rho(1 - nu^2)) in plane stress.
+  !> c_p: (lambda + 2G)/rho in space and plane strain, E/(rho(1 - nu^2)) in plane stress.
   pure function elastic_wave_speed(this, plane) result(c)
     class(elastic_t), intent(in) :: this
     integer, intent(in) :: plane
-    real(wp) :: c, d(3, 3)
+    real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
+    real(wp) :: c
     d = this%moduli(plane)
     c = sqrt(d(1, 1)/this%density)
   end function elastic_wave_speed

@@ -54,7 +54,7 @@ module model_data
   !> Forces force(:, k) * factor * curve(time - arrival) on node(k), none before arrival.
   type, public :: load_t
     integer, allocatable :: node(:)
-    real(wp), allocatable :: force(:, :)  !< (2, nodes)
+    real(wp), allocatable :: force(:, :)  !< (dim, nodes)
     integer :: curve = 0
     real(wp) :: factor = 1.0_wp
     real(wp) :: arrival = 0.0_wp          !< [T]
@@ -65,7 +65,7 @@ module model_data
     integer, allocatable :: part(:)       !< rows
     integer :: curve = 0                  !< 0 = none: constant
     real(wp) :: factor = 0.0_wp
-    real(wp) :: scale(2) = 1.0_wp         !< of a by direction
+    real(wp) :: scale(3) = 1.0_wp         !< of a by direction
   end type mass_damping_t
 
   !> Body load: acceleration of all mass = - factor * curve [L/T2].
@@ -204,6 +204,7 @@ module model_data
 
   type, public :: model_t
     character(80) :: title = ''
+    integer :: dim = 2
     real(wp) :: z = 0.0_wp              !< of the plane [L]
     !> Nodes of the mesh, then centres and rotors of rigid parts.
     integer :: nodes = 0
@@ -211,9 +212,9 @@ module model_data
     !> The last nodes, which belong to no element: rigid walls, each with its motion
     integer :: bodies = 0
     integer, allocatable :: node_id(:)
-    real(wp), allocatable :: x(:, :)         !< (2, nodes) [L]
-    real(wp), allocatable :: v0(:, :)        !< (2, nodes) initial velocity [L/T]
-    logical, allocatable :: fixed(:, :)      !< (2, nodes)
+    real(wp), allocatable :: x(:, :)         !< (dim, nodes) [L]
+    real(wp), allocatable :: v0(:, :)        !< (dim, nodes) initial velocity [L/T]
+    logical, allocatable :: fixed(:, :)      !< (dim, nodes)
     type(mesh_t) :: mesh
     type(part_t), allocatable :: part(:)
     type(rigid_t), allocatable :: rigid      !< only where parts are rigid

@@ -27,7 +27,7 @@ module model_rigid
 
 contains
 
-  !> Rotations of all parts for displacements u (2, nodes) [radians].
+  !> Rotations of all parts for displacements u (dim, nodes) [radians].
   pure function rotations(rigid, u) result(angle)
     type(rigid_t), intent(in) :: rigid
     real(wp), intent(in) :: u(:, :)
@@ -56,7 +56,7 @@ contains
     end do
   end subroutine find_levers
 
-  !> Motions of the followers, from those of centres and rotors in the same array (2, nodes).
+  !> Motions of the followers, from those of centres and rotors in the same array (dim, nodes).
   pure subroutine move_followers(rigid, lever, x)
     type(rigid_t), intent(in) :: rigid
     real(wp), intent(in) :: lever(:, :)
@@ -81,7 +81,7 @@ contains
     call move_followers(rigid, lever, v)
   end subroutine place_followers
 
-  !> Forces (2, nodes) [F] on followers become forces on centres and rotors.
+  !> Forces (dim, nodes) [F] on followers become forces on centres and rotors.
   pure subroutine gather_forces(rigid, lever, f)
     type(rigid_t), intent(in) :: rigid
     real(wp), intent(in) :: lever(:, :)

@@ -10,12 +10,12 @@ module model_state
   type, public :: state_t
     integer :: cycle = 0
     real(wp) :: time = zero
-    real(wp), allocatable :: u(:, :)    !< (2, n) displacement [L]
-    real(wp), allocatable :: v(:, :)    !< (2, n) velocity [L/T]
-    real(wp), allocatable :: du(:, :)   !< (2, n) displacement of the step just done [L]
-    !> (2, n) acceleration [L/T2], only for schemes that have one
+    real(wp), allocatable :: u(:, :)    !< (dim, n) displacement [L]
+    real(wp), allocatable :: v(:, :)    !< (dim, n) velocity [L/T]
+    real(wp), allocatable :: du(:, :)   !< (dim, n) displacement of the step just done [L]
+    !> (dim, n) acceleration [L/T2], only for schemes that have one
     real(wp), allocatable :: a(:, :)
-    !> (2, n) acceleration of the smooth forces alone, only for schemes that keep it apart
+    !> (dim, n) acceleration of the smooth forces alone, only for schemes that keep it apart
     real(wp), allocatable :: a_smooth(:, :)
     real(wp) :: h_last = zero           !< length of the step just done [T]
   end type state_t
@@ -29,14 +29,12 @@ contains
     real(wp), intent(in) :: v0(:, :)
     logical, intent(in) :: with_acceleration
     type(state_t), intent(out) :: state
-    integer :: n
-    n = size(v0, 2)
-    allocate (state%u(2, n), state%v(2, n), state%du(2, n))
+    allocate (state%u, state%v, state%du, mold=v0)
     state%u = zero
     state%v = v0
     state%du = zero
     if (.not. with_acceleration) return
-    allocate (state%a(2, n))
+    allocate (state%a, mold=v0)
     state%a = zero
   end subroutine make_state
 

@@ -7,7 +7,7 @@ module output_fields
   use base_kinds, only: wp, zero, half, one
   use contact_pairing, only: no_gap
   use contact_types, only: contact_t
-  use element_base, only: element_t
+  use element_base, only: most_nodes, most_strains, strains
   use deck_names, only: field_names
   use model_data, only: model_t
   use model_state, only: state_t
@@ -22,8 +22,8 @@ module output_fields
     type(field_t), allocatable :: field(:)
     !> (4, 8, cells): sxx, syy, szz, sxy by the displacements of the nodes [F/L3]; only where
     !> stress is asked for
-    real(wp), allocatable :: stress_of(:, :, :)
-    integer, allocatable :: cell_node(:, :)    !< (4, cells)
+    real(wp), allocatable :: stress_of(:, :)
+    integer, allocatable :: cell_first(:), cell_node(:)   !< nodes of each cell, as rows
     real(wp), allocatable :: stress(:, :)      !< (6, cells), only for PRINCIPAL [F/L2]
     real(wp) :: next = zero                    !< a frame is due from next*interval on
     integer :: segment = 0                     !< number of the file that is open or comes next
@@ -101,25 +101,33 @@ contains
   subroutine make_stress(model, fields)
     type(model_t), intent(in) :: model
     type(fields_t), intent(inout) :: fields
-    real(wp) :: b(3, 8), stress(3)
-    integer :: k, c, e, n
+    real(wp) :: b(most_strains, model%dim*most_nodes), stress(3)
+    integer :: k, c, e, m, at
     if (allocated(fields%stress_of)) return
-    allocate (fields%stress_of(4, 8, size(fields%cell)))
-    fields%stress_of = zero
-    allocate (fields%cell_node(4, size(fields%cell)))
+    fields%cell_first = [1, (0, k=1, size(fields%cell))]
+    do k = 1, size(fields%cell)
+      fields%cell_first(k + 1) = fields%cell_first(k) + model%mesh%count_of(fields%cell(k))
+    end do
+    allocate (fields%cell_node(fields%cell_first(k) - 1))
+    allocate (fields%stress_of(merge(4, 6, model%dim == 2), model%dim*size(fields%cell_node)))
     do k = 1, size(fields%cell)
       e = fields%cell(k)
-      n = model%mesh%count_of(e)
-      fields%cell_node(:n, k) = model%mesh%nodes_of(e)
-      fields%cell_node(n + 1:, k) = fields%cell_node(n, k)
-      associate (part => model%part(model%mesh%part(e)), &
+      at = model%dim*(fields%cell_first(k) - 1)
+      fields%cell_node(fields%cell_first(k):fields%cell_first(k + 1) - 1) = &
+          model%mesh%nodes_of(e)
+      m = model%dim*model%mesh%count_of(e)
+      associate (part => model%part(model%mesh%part(e)), n => strains(model%dim), &
           element => model%mesh%kind(model%mesh%type(e))%item)
         associate (material => model%material(part%material)%item)
-          call element%mean_strain_matrix(model%x(:, fields%cell_node(1:n, k)), b(:, 1:2*n))
-          b(:, 1:2*n) = matmul(material%moduli(part%plane), b(:, 1:2*n))
-          do c = 1, 2*n
-            stress = b(:, c)
-            fields%stress_of(:, c, k) = [stress(1), stress(2), &
+          call element%mean_strain_matrix(model%x(:, model%mesh%nodes_of(e)), b(:n, :m))
+          b(:n, :m) = matmul(material%moduli(part%plane), b(:n, :m))
+          do c = 1, m
+            if (model%dim == 3) then
+              fields%stress_of(:, at + c) = b(:n, c)
+              cycle
+            end if
+            stress = b(:3, c)
+            fields%stress_of(:, at + c) = [stress(1), stress(2), &
                 material%out_of_plane_stress(part%plane, stress), stress(3)]
           end do
         end associate
@@ -140,7 +148,7 @@ contains
         k=1, size(fields%cell))])))
     number(fields%node) = [(k - 1, k=1, size(fields%node))]
     mesh%points = zero
-    mesh%points(1:2, :) = model%x(:, fields%node)
+    mesh%points(1:model%dim, :) = model%x(:, fields%node)
     at = 0
     mesh%offsets(1) = 0
     do k = 1, size(fields%cell)
@@ -192,20 +200,19 @@ contains
       associate (values => fields%field(k)%values)
         select case (fields%field(k)%name)
         case ('U')
-          call gather(size(fields%node), fields%node, model%nodes, state%u, one, values)
+          call gather(model%dim, size(fields%node), fields%node, &
+              model%nodes, state%u, one, values)
         case ('V')
-          if (state%cycle == 0) call gather(size(fields%node), fields%node, model%nodes, &
-              state%v, one, values)
-          if (state%cycle > 0) call gather(size(fields%node), fields%node, model%nodes, &
-              state%du, state%h_last, values)
+          if (state%cycle == 0) call gather(model%dim, size(fields%node), fields%node, &
+              model%nodes, state%v, one, values)
+          if (state%cycle > 0) call gather(model%dim, size(fields%node), fields%node, &
+              model%nodes, state%du, state%h_last, values)
         case ('FORCE', 'PRESSURE', 'GAP', 'STATUS')
           call fill_contact(contact, model%nodes, fields%node, fields%field(k))
         case ('STRESS')
-          call find_stress(size(fields%cell), fields%cell_node, fields%stress_of, model%nodes, &
-              state%u, values)
+          call find_stress(fields, state%u, values)
         case ('PRINCIPAL')
-          call find_stress(size(fields%cell), fields%cell_node, fields%stress_of, model%nodes, &
-              state%u, fields%stress)
+          call find_stress(fields, state%u, fields%stress)
           call fill_principal(fields%stress, values)
         case ('ENERGY')
           do i = 1, size(fields%cell)
@@ -216,33 +223,37 @@ contains
     end do
   end subroutine fill_fields
 
-  !> Stress of the cells from the displacements of their nodes.
-  pure subroutine find_stress(cells, node, stress_of, nodes, u, stress)
-    integer, intent(in) :: cells, nodes, node(4, cells)
-    real(wp), intent(in) :: stress_of(4, 8, cells), u(2, nodes)
-    real(wp), intent(inout) :: stress(6, cells)
-    real(wp) :: sum_of(4)
-    integer :: k, c, i
-    do k = 1, cells
-      sum_of = zero
-      do c = 1, 4      ! the fourth of a triangle counts for nothing
-        i = node(c, k)
-        sum_of = sum_of + stress_of(:, 2*c - 1, k)*u(1, i) + stress_of(:, 2*c, k)*u(2, i)
+  !> Stress of the cells from the displacements u (dim, nodes) of their nodes.
+  pure subroutine find_stress(fields, u, stress)
+    type(fields_t), intent(in) :: fields
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: stress(:, :)
+    real(wp) :: total(6), of_node(6)
+    integer :: k, c, d, n
+    n = size(fields%stress_of, 1)
+    total = zero
+    do k = 1, size(fields%cell)
+      total(:n) = zero
+      do c = fields%cell_first(k), fields%cell_first(k + 1) - 1
+        of_node(:n) = fields%stress_of(:, size(u, 1)*(c - 1) + 1)*u(1, fields%cell_node(c))
+        do d = 2, size(u, 1)
+          of_node(:n) = of_node(:n) &
+              + fields%stress_of(:, size(u, 1)*(c - 1) + d)*u(d, fields%cell_node(c))
+        end do
+        total(:n) = total(:n) + of_node(:n)
       end do
-      stress(1:4, k) = sum_of
-      stress(5:6, k) = zero
+      stress(:, k) = total
     end do
   end subroutine find_stress
 
-  !> values(1:2, k) = x(:, list(k)) / divisor.
-  pure subroutine gather(n, list, nodes, x, divisor, values)
-    integer, intent(in) :: n, list(n), nodes
-    real(wp), intent(in) :: x(2, nodes), divisor
+  !> values(1:dim, k) = x(:, list(k)) / divisor.
+  pure subroutine gather(dim, n, list, nodes, x, divisor, values)
+    integer, intent(in) :: dim, n, list(n), nodes
+    real(wp), intent(in) :: x(dim, nodes), divisor
     real(wp), intent(inout) :: values(3, n)
     integer :: k
     do k = 1, n
-      values(1, k) = x(1, list(k))/divisor
-      values(2, k) = x(2, list(k))/divisor
+      values(1:dim, k) = x(:, list(k))/divisor
     end do
   end subroutine gather
 

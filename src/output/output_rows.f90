@@ -35,7 +35,9 @@ contains
         [h, ledger%kinetic, ledger%internal, ledger%total, ledger%initial, ledger%external, &
         ledger%motion, ledger%contact%friction, ledger%contact%normal, &
         ledger%contact%unsolved, ledger%algorithmic, ledger%damping, ledger%residual, &
-        ledger%ratio, ledger%momentum(1), ledger%momentum(2), zero, zero, zero, ledger%angular])
+        ledger%ratio])
+    call add_vector(file, writer, ledger%momentum)
+    call add_vector(file, writer, ledger%angular)
     call end_row(file)
   end subroutine write_glstat
 
@@ -47,7 +49,7 @@ contains
     type(state_t), intent(in) :: state
     type(ledger_t), intent(in) :: ledger
     type(status_t), intent(inout) :: status
-    real(wp) :: velocity(2)
+    real(wp) :: velocity(model%dim)
     integer :: p
     do p = 1, size(model%part)
       call begin_row(file, status)
@@ -71,7 +73,7 @@ contains
     type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: mean(2), place(2)
+    real(wp), dimension(model%dim) :: mean, place
     integer :: k, i
     do k = 1, size(model%requests%history_node)
       i = model%requests%history_node(k)

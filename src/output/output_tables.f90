@@ -176,15 +176,16 @@ contains
     end do
   end subroutine add_numbers
 
-  !> Adds a vector of the plane: x, y, 0. (An array that takes sections of others would be
+  !> Adds a vector, in the plane x, y, 0. (An array that takes sections of others would be
   !> allocated in each row.)
   subroutine add_vector(file, writer, v)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
-    real(wp), intent(in) :: v(2)
+    real(wp), intent(in) :: v(:)
     call add_number(file, writer, v(1))
     call add_number(file, writer, v(2))
-    call add_number(file, writer, zero)
+    if (size(v) == 2) call add_number(file, writer, zero)
+    if (size(v) == 3) call add_number(file, writer, v(3))
   end subroutine add_vector
 
   !> Closes all tables with the way the run ended.

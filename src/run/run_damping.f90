@@ -25,8 +25,8 @@ contains
     cards = 0
     if (allocated(run%model%mass_damping)) cards = size(run%model%mass_damping)
     allocate (run%damping)
-    allocate (run%damping%value(cards), run%damping%rate(2, run%system%n), &
-        run%damping%force(2, run%system%n))
+    allocate (run%damping%value(cards), run%damping%rate(run%system%dim, run%system%n), &
+        run%damping%force(run%system%dim, run%system%n))
     run%damping%value = -one
     run%damping%force = zero
     call update_damping(run, t1, changed)
@@ -39,7 +39,7 @@ contains
     run%damping%force = zero
     if (damped_stage(run) == 0 .or. .not. run%scheme%weight_before > zero) return
     if (.not. allocated(run%damping%force_before)) &
-        allocate (run%damping%force_before(2, run%system%n), source=zero)
+        allocate (run%damping%force_before(run%system%dim, run%system%n), source=zero)
     call subtract_damping_force(run%system, -one, run%state%v, run%damping%force)
   end subroutine start_damping
 

@@ -78,18 +78,18 @@ module run_data
     integer, allocatable :: constrained(:)       !< their held dofs
     real(wp), allocatable :: flexibility(:, :)   !< of them [L/F]
     real(wp), allocatable :: half_spread(:, :)   !< work space: spread in its rows alone
-    real(wp), allocatable :: x(:, :)             !< (2, m) motion of the interface [L]
+    real(wp), allocatable :: x(:, :)             !< (dim, m) motion of the interface [L]
     ! Only where forces of both ends of a step act: (2, followers) levers of the step before,
-    ! (2, n) the motion on which its forces work [L].
+    ! (dim, n) the motion on which its forces work [L].
     real(wp), allocatable :: lever_before(:, :), motion_before(:, :)
     integer :: passes = 0                        !< solves that were repeated for the turns
   end type rigid_step_t
   !> Damping of the deck.
   type, public :: damping_state_t
     real(wp), allocatable :: value(:)            !< of each card by mass, in force [1/T]
-    real(wp), allocatable :: rate(:, :)          !< (2, n) work space [L/T]
-    real(wp), allocatable :: force(:, :)         !< (2, n) of the step just done [F]
-    !> (2, n) that at its begin, only for schemes that count both [F]
+    real(wp), allocatable :: rate(:, :)          !< (dim, n) work space [L/T]
+    real(wp), allocatable :: force(:, :)         !< (dim, n) of the step just done [F]
+    !> (dim, n) that at its begin, only for schemes that count both [F]
     real(wp), allocatable :: force_before(:, :)
   end type damping_state_t
   !> Where the run stands in its steps of DT0, which may be halved or cut (run_step).
@@ -139,28 +139,28 @@ module run_data
     type(ledger_t) :: ledger
     type(tables_t) :: tables
     type(timers_t) :: timers
-    real(wp), allocatable :: b(:, :), x(:, :)              !< (2, n)
-    real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (2, n) only with loads [F]
-    real(wp), allocatable :: b_interface(:, :), x_interface(:, :)    !< (2, m) interface
-    real(wp), allocatable :: force(:, :)                   !< (2, m) H' r
-    ! (2, n), only with refinement
+    real(wp), allocatable :: b(:, :), x(:, :)              !< (dim, n)
+    real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (dim, n) only with loads [F]
+    real(wp), allocatable :: b_interface(:, :), x_interface(:, :)    !< (dim, m) interface
+    real(wp), allocatable :: force(:, :)                   !< (dim, m) H' r
+    ! (dim, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)
     ! Only with prescribed motions or a table of reactions
     logical, allocatable :: active_motion(:)
     type(part_t) :: motion_part            !< columns of A at nodes that are moved at some time
     type(part_t) :: reaction_part          !< rows of A at nodes that are held at some time
     integer, allocatable :: reaction_dof(:, :)             !< (2, *) their direction and node
-    real(wp), allocatable :: given(:, :)                   !< (2, n) motion of held dofs [L]
+    real(wp), allocatable :: given(:, :)                   !< (dim, n) motion of held dofs [L]
     real(wp), allocatable :: b_held(:, :)                  !< b in those rows, not cleared
-    real(wp), allocatable :: reaction(:, :)                !< (2, n) of the step just done [F]
+    real(wp), allocatable :: reaction(:, :)                !< (dim, n) of the step just done [F]
     real(wp), allocatable :: mean_reaction(:, :)           !< its mean over the step [F]
     real(wp), allocatable :: first_reaction(:, :)          !< of the first of two stages [F]
     real(wp), allocatable :: smooth_reaction(:, :)         !< the part that is a load [F]
     type(damping_state_t), allocatable :: damping          !< only where the deck has it
     ! Only in statics of bodies that supports do not hold.
     real(wp), allocatable :: shift(:)                      !< (n) eps M [F/L]
-    real(wp), allocatable :: x_pass(:, :), move(:, :)      !< (2, n) last pass, its change [L]
-    real(wp), allocatable :: unbalanced(:, :)              !< (2, n) of the last step [F]
+    real(wp), allocatable :: x_pass(:, :), move(:, :)      !< (dim, n) last pass, its change [L]
+    real(wp), allocatable :: unbalanced(:, :)              !< (dim, n) of the last step [F]
     integer :: same_moves = 0                              !< passes in a row
     logical :: starts_from_rest = .false.                  !< nothing is loaded before this step
     integer :: static_steps = 0                            !< of the static phase

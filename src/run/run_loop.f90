@@ -282,7 +282,7 @@ contains
     integer, intent(in) :: stage
     type(status_t), intent(inout) :: status
     real(wp) :: total, largest
-    call sum_squares(size(run%x, 2), run%x, total, largest)
+    call sum_squares(size(run%x, 1), size(run%x, 2), run%x, total, largest)
     if (run%scheme%stage(stage)%moves) run%largest_motion = sqrt(largest)
     if (total <= huge(one)) return
     run%broken = .true.
@@ -292,19 +292,27 @@ contains
   end subroutine check_finite
 
   !> Sum and maximum of the squared lengths; a NaN stays in the sum.
-  pure subroutine sum_squares(n, x, total, largest)
-    integer, intent(in) :: n
-    real(wp), intent(in) :: x(2, n)
+  pure subroutine sum_squares(dim, n, x, total, largest)
+    integer, intent(in) :: dim, n
+    real(wp), intent(in) :: x(dim, n)
     real(wp), intent(out) :: total, largest
     real(wp) :: a
     integer :: i
     total = zero
     largest = zero
-    do i = 1, n
-      a = x(1, i)**2 + x(2, i)**2
-      total = total + a
-      largest = merge(a, largest, a > largest)
-    end do
+    if (dim == 2) then
+      do i = 1, n
+        a = x(1, i)**2 + x(2, i)**2
+        total = total + a
+        largest = merge(a, largest, a > largest)
+      end do
+    else
+      do i = 1, n
+        a = sum(x(:, i)**2)
+        total = total + a
+        largest = merge(a, largest, a > largest)
+      end do
+    end if
   end subroutine sum_squares
 
   !> Works of the step into the ledger.
@@ -370,7 +378,7 @@ contains
     end if
   end subroutine find_motion_work
 
-  !> Work of the loads on a motion (2, n) [F L].
+  !> Work of the loads on a motion (dim, n) [F L].
   pure real(wp) function load_work(run, motion)
     type(run_t), intent(in) :: run
     real(wp), intent(in) :: motion(:, :)

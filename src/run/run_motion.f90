@@ -23,9 +23,10 @@ contains
     type(run_t), intent(inout) :: run
     logical, allocatable :: is_held(:, :)
     logical :: changed
-    integer :: n, k
+    integer :: d, n, k
     n = run%system%n
-    allocate (run%reaction(2, n), run%mean_reaction(2, n), is_held(2, n))
+    d = run%system%dim
+    allocate (run%reaction(d, n), run%mean_reaction(d, n), is_held(d, n))
     run%reaction = zero
     run%mean_reaction = zero
     is_held = .false.
@@ -34,7 +35,7 @@ contains
     end do
     if (run%plan%motions) then
       call columns_of_nodes(run%system, any(is_held, dim=1), run%motion_part)
-      allocate (run%given(2, n), run%active_motion(size(run%model%motion)))
+      allocate (run%given(d, n), run%active_motion(size(run%model%motion)))
       run%given = zero
       run%active_motion = .false.
       call activate_motions(run, run%scheme%h, changed)
@@ -42,7 +43,7 @@ contains
     is_held = is_held .or. run%model%fixed
     call rows_of_nodes(run%system, any(is_held, dim=1), run%reaction_part)
     run%reaction_dof = list_dofs(is_held)
-    allocate (run%b_held(2, size(run%reaction_part%row)))
+    allocate (run%b_held(d, size(run%reaction_part%row)))
   end subroutine make_motions
 
   !> Which motions act in the step that ends at t1; changed tells that the set of held dofs is
@@ -67,7 +68,7 @@ contains
     type(run_t), intent(inout) :: run
     logical, allocatable :: is_held(:, :)
     integer :: k
-    allocate (is_held(2, run%system%n))
+    allocate (is_held(run%system%dim, run%system%n))
     is_held = run%model%fixed
     do k = 1, size(run%model%motion)
       if (run%active_motion(k)) &
@@ -143,7 +144,7 @@ contains
     real(wp), allocatable :: misfit(:, :)
     integer :: k
     if (.not. allocated(run%state%a)) return
-    allocate (misfit(2, run%system%n))
+    allocate (misfit(run%system%dim, run%system%n))
     misfit = zero
     call add_loads(run%model, run%system, run%state%time, one, misfit)
     call multiply_mass(run%system, -one, run%state%a, misfit)
@@ -168,8 +169,8 @@ contains
     end do
   end subroutine keep_right_side
 
-  !> Reactions of the held dofs, A x - b - H' r, for the unknown x (2, n) of a stage just done,
-  !> and their mean over the step as the scheme weighs contact forces; others are zero.
+  !> Reactions of the held dofs, A x - b - H' r, for the unknown x (dim, n) of a stage just
+  !> done, and their mean over the step as the scheme weighs contact forces; others are zero.
   subroutine find_reactions(run, stage, x)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
@@ -212,7 +213,7 @@ contains
     end do
   end subroutine find_smooth_reactions
 
-  !> Work of forces on held dofs (2, n) in the motion on which the forces of the step do work
+  !> Work of forces on held dofs (dim, n) in the motion on which the forces of the step do work
   !> [F L].
   pure real(wp) function reaction_work(run, force, motion)
     type(run_t), intent(in) :: run

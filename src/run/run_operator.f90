@@ -72,9 +72,9 @@ contains
     allocate (run%other)
     call make_engine(run, 2, run%other%solver, status)
     if (.not. run%plan%reactions) return
-    allocate (run%first_reaction(2, run%system%n), source=zero)
+    allocate (run%first_reaction(run%system%dim, run%system%n), source=zero)
     if (.not. allocated(run%state%a_smooth)) return
-    allocate (run%smooth_reaction(2, run%system%n), source=zero)
+    allocate (run%smooth_reaction(run%system%dim, run%system%n), source=zero)
     call find_smooth_reactions(run)
   end subroutine make_other
 
@@ -116,19 +116,20 @@ contains
     type(run_t), intent(inout) :: run
     logical, intent(in) :: again
     type(status_t), intent(inout) :: status
-    integer :: m, stage, in_use
+    integer :: d, m, stage, in_use
     if (failed(status)) return
     call run%timers%enter(phase_factor)
     m = size(run%contact%interface_node)
+    d = run%system%dim
     if (again) then
       if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
-      allocate (run%force(2, m))
+      allocate (run%force(d, m))
       if (allocated(run%rigid)) call link_interface(run)
       associate (kept => size(kept_nodes(run)))
-        allocate (run%b_interface(2, kept), run%x_interface(2, kept))
+        allocate (run%b_interface(d, kept), run%x_interface(d, kept))
       end associate
-      if (2*m > run%solver_options%block_limit) &
-          call add_message(run%notes, '', 'the contact interface has '//to_text(2*m)// &
+      if (d*m > run%solver_options%block_limit) &
+          call add_message(run%notes, '', 'the contact interface has '//to_text(d*m)// &
           ' dofs, more than NLAST; it is kept dense all the same')
     end if
     in_use = run%stage_in_use
@@ -164,7 +165,7 @@ contains
     run%factors = run%factors + 1
     m = size(run%contact%interface_node)
     if (m == 0 .or. failed(status)) return
-    call size_flexibility(m, run%contact%schur_inverse)
+    call size_flexibility(run%system%dim*m, run%contact%schur_inverse)
     if (allocated(run%rigid)) then
       call keep_flexibility(run)
     else
@@ -185,23 +186,25 @@ contains
   end function kept_nodes
 
   !> That of the matrix beside the one in use is not sized with the interface.
+  !> (m, m) dofs.
   subroutine size_flexibility(m, schur_inverse)
     integer, intent(in) :: m
     real(wp), allocatable, intent(inout) :: schur_inverse(:, :)
     if (allocated(schur_inverse)) then
-      if (size(schur_inverse, 1) == 2*m) return
+      if (size(schur_inverse, 1) == m) return
       deallocate (schur_inverse)
     end if
-    allocate (schur_inverse(2*m, 2*m))
+    allocate (schur_inverse(m, m))
   end subroutine size_flexibility
 
   subroutine shift_matrix(run)
     type(run_t), intent(inout) :: run
-    integer :: i, k
+    integer :: i, k, d
     do i = 1, run%system%n
       k = run%system%graph%position(i, i)
-      run%matrix%value(1, 1, k) = run%matrix%value(1, 1, k) + run%shift(i)
-      run%matrix%value(2, 2, k) = run%matrix%value(2, 2, k) + run%shift(i)
+      do d = 1, run%system%dim
+        run%matrix%value(d, d, k) = run%matrix%value(d, d, k) + run%shift(i)
+      end do
     end do
   end subroutine shift_matrix
 

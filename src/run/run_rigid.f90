@@ -37,7 +37,7 @@ contains
           .and. run%scheme%stage(1)%rule%level == level_position
       if (run%scheme%weight_before > zero .and. .not. allocated(r%motion_before)) then
         allocate (r%lever_before(2, size(rigid%node)))
-        allocate (r%motion_before(2, run%system%n))
+        allocate (r%motion_before(run%system%dim, run%system%n))
       end if
       r%turn = zero
       call find_levers(rigid, rotations(rigid, run%state%u), r%turn, r%lever)
@@ -142,8 +142,8 @@ contains
     run%contact%w_is_current = .false.
   end subroutine spread_flexibility
 
-  !> run%rigid%x (2, m): the motion of the interface for the motion run%x_interface of the nodes
-  !> that the solver has kept.
+  !> run%rigid%x (dim, m): the motion of the interface for the motion run%x_interface of the
+  !> nodes that the solver has kept.
   subroutine spread_motion(run)
     type(run_t), intent(inout) :: run
     integer :: k
@@ -250,7 +250,7 @@ contains
     end associate
   end subroutine set_true_motion
 
-  !> f = f - factor H' r (2, nodes), on centres and rotors where nodes follow them.
+  !> f = f - factor H' r (dim, nodes), on centres and rotors where nodes follow them.
   subroutine subtract_contact(run, factor, f)
     type(run_t), intent(inout) :: run
     real(wp), intent(in) :: factor

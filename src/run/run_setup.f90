@@ -89,8 +89,8 @@ contains
     if (run%static_steps > 0) call make_shift(run%model, run%system, run%shift, &
         run%model%controls%static_shift)
     if (allocated(run%shift)) then
-      allocate (run%x_pass(2, run%system%n), run%move(2, run%system%n))
-      allocate (run%unbalanced(2, run%system%n), source=zero)
+      allocate (run%x_pass, run%move, mold=run%model%x)
+      allocate (run%unbalanced(run%system%dim, run%system%n), source=zero)
       run%x_pass = zero
       if (allocated(run%model%rigid)) run%least_energy = run%model%controls%static_residual* &
           maxval(run%shift)*maxval(maxval(run%model%x, dim=2) - minval(run%model%x, dim=2))**2
@@ -111,12 +111,12 @@ contains
         'the initial energy is not finite (NaN or Inf)', &
         hint='check units and initial velocities')
     if (failed(status)) return
-    allocate (run%b(2, run%system%n), run%x(2, run%system%n))
+    allocate (run%b(run%system%dim, run%system%n), run%x(run%system%dim, run%system%n))
     run%x = zero
     call make_operators(run, status)
     if (failed(status)) return
     if (run%plan%loads) then
-      allocate (run%load_0(2, run%system%n), run%load_1(2, run%system%n))
+      allocate (run%load_0, run%load_1, mold=run%b)
       run%load_0 = zero
     end if
     if (run%plan%contact) call first_lists(run, status)
@@ -139,7 +139,7 @@ contains
     end do
     call add_message(run%notes, '', 'OVERLAP ADJUST moved '//to_text(size(run%moved))// &
         ' nodes onto obstacles, by '//to_text(farthest)//' at most; the log lists them')
-    allocate (run%state%u(2, run%model%nodes), source=zero)
+    allocate (run%state%u(run%system%dim, run%model%nodes), source=zero)
     element = first_inverted(run%system, run%model%x, run%state%u)
     deallocate (run%state%u)
     if (element > 0) call fail(status, status_deck, 'OVERLAP ADJUST turns element '// &
@@ -196,8 +196,7 @@ contains
         to_text(ratio)//' in the effective matrix, limit '//to_text(refinement_ratio)// &
         '; after '//to_text(run%plan%refined_from)//' steps, when the drift may pass '// &
         to_text(largest_drift))
-    if (run%plan%refinement) &
-        allocate (run%correction(2, run%system%n), run%b_kept(2, run%system%n))
+    if (run%plan%refinement) allocate (run%correction, run%b_kept, mold=run%b)
   end subroutine plan_refinement
 
   !> What contact must know of the scheme: whether forces of both ends of a step act (then

@@ -56,7 +56,7 @@ contains
     if (stage > 1 .and. allocated(run%scheme%free)) call find_free(run, acting)
   end subroutine solve_stage
 
-  !> Motions x (2, nodes) of the nodes that follow rigid parts.
+  !> Motions x (dim, nodes) of the nodes that follow rigid parts.
   subroutine follow(run, x)
     type(run_t), intent(in) :: run
     real(wp), intent(inout) :: x(:, :)
@@ -135,7 +135,7 @@ contains
     call add_correction(run)
   end subroutine refine_motion
 
-  !> Adds forces of the interface (2, m) to b.
+  !> Adds forces of the interface (dim, m) to b.
   pure subroutine add_interface_forces(run, force)
     type(run_t), intent(inout) :: run
     real(wp), intent(in) :: force(:, :)

@@ -74,7 +74,7 @@ contains
     integer :: k
     call refuse_by_scheme(deck, model, r, 'VALDMP')
     value = [(deck%real(r, scale(k)), k=1, 6)]
-    if (any(abs(value) > zero)) damping%scale = value(1:2)
+    if (any(abs(value) > zero)) damping%scale = value(1:3)
     damping%factor = deck%real(r, 'VALDMP')
     if (deck%integer(r, 'LCID') > 0) then
       damping%curve = curve_of(deck, model, maps, r)

@@ -82,11 +82,8 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    associate (n => system%n)
-      allocate (this%d(2, n), this%da(2, n), this%m_da(2, n))
-      if (this%looks_ahead) allocate (this%inertia(2, n), this%force(2, n), &
-          this%force_before(2, n))
-    end associate
+    allocate (this%d, this%da, this%m_da, mold=state%v)
+    if (this%looks_ahead) allocate (this%inertia, this%force, this%force_before, mold=state%v)
     this%da = zero
     call start_acceleration(trim(this%name), model, system, this%starts_in_balance, state, &
         status)
@@ -183,8 +180,8 @@ contains
     if (this%looks_ahead) then
       call swap(this%force, this%force_before)
       call look_ahead(this, system, state)
-      alpha_dissipation = all_terms(system%n, weight, half - this%af, state%a, this%da, &
-          state%du, this%m_da, this%force, this%force_before)
+      alpha_dissipation = all_terms(system%dim, system%n, weight, half - this%af, state%a, &
+          this%da, state%du, this%m_da, this%force, this%force_before)
     else
       this%m_da = zero
       call multiply_mass(system, one, this%da, this%m_da)
@@ -213,11 +210,12 @@ contains
   end function inertia_terms
 
   !> The same, and q dU.(K U1 - K U0), in one pass.
-  pure real(wp) function all_terms(n, weight, q, a, da, du, m_da, after, before) result(terms)
-    integer, intent(in) :: n
+  pure real(wp) function all_terms(dim, n, weight, q, a, da, du, m_da, after, &
+      before) result(terms)
+    integer, intent(in) :: dim, n
     real(wp), intent(in) :: weight(3), q
-    real(wp), intent(in), dimension(2, n) :: a, da, du, m_da, after, before
-    real(wp) :: total(2)
+    real(wp), intent(in), dimension(dim, n) :: a, da, du, m_da, after, before
+    real(wp) :: total(dim)
     integer :: i
     total = zero
     do i = 1, n

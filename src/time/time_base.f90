@@ -39,7 +39,7 @@ module time_base
   end type stage_t
 
   type, public :: motion_t
-    real(wp), allocatable :: x(:, :)         !< (2, n) [L]
+    real(wp), allocatable :: x(:, :)         !< (dim, n) [L]
   end type motion_t
 
   type, abstract, public :: scheme_t
@@ -58,15 +58,15 @@ module time_base
     type(staggered_t) :: staggered
     !> What a scheme has made ahead goes with the state: not after a restart.
     logical :: is_current = .false.
-    !> (2, n) motion on which forces do work, only where it is not that of the step [L]
+    !> (dim, n) motion on which forces do work, only where it is not that of the step [L]
     real(wp), allocatable :: conjugate(:, :)
     ! Only of schemes of two stages, whose matrices differ:
     !> of each stage, on which its contact forces do work
     type(motion_t), allocatable :: stage_work(:)
     logical :: adds_reactions = .false.      !< the force of the step is that of both stages
-    !> (2, n) x of the last stage without contact, only where it is needed [L]
+    !> (dim, n) x of the last stage without contact, only where it is needed [L]
     real(wp), allocatable :: free(:, :)
-    !> (2, n) that the scheme itself adds to the rate V0 in C of its stage [L/T]
+    !> (dim, n) that the scheme itself adds to the rate V0 in C of its stage [L/T]
     real(wp), allocatable :: rate(:, :)
   contains
     procedure :: begin_step => nothing_to_begin
@@ -103,7 +103,7 @@ module time_base
       type(state_t), intent(in) :: state
       real(wp), intent(inout) :: b(:, :)
     end subroutine right_side_i
-    !> State at the end of a stage from its unknown x (2, n), which becomes the motion of the
+    !> State at the end of a stage from its unknown x (dim, n), which becomes the motion of the
     !> step, U1 - U0, if the stage moves.
     subroutine update_i(this, stage, x, state)
       import :: scheme_t, state_t, wp
@@ -144,14 +144,14 @@ contains
     real(wp), intent(in) :: h_last
   end subroutine nothing_to_begin
 
-  !> The motions of both stages of a scheme, zero, for n nodes.
-  pure subroutine make_stage_work(n, stage_work)
-    integer, intent(in) :: n
+  !> The motions of both stages of a scheme, zero.
+  pure subroutine make_stage_work(system, stage_work)
+    type(system_t), intent(in) :: system
     type(motion_t), allocatable, intent(out) :: stage_work(:)
     integer :: k
     allocate (stage_work(2))
     do k = 1, 2
-      allocate (stage_work(k)%x(2, n), source=zero)
+      allocate (stage_work(k)%x(system%dim, system%n), source=zero)
     end do
   end subroutine make_stage_work
 
@@ -159,8 +159,8 @@ contains
   pure real(wp) function mass_product(system, x, y)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), y(:, :)
-    real(wp) :: row(2)
-    integer :: i, k
+    real(wp) :: row(system%dim)
+    integer :: d, i, k
     mass_product = zero
     do i = 1, system%n
       if (system%mass_is_diagonal) then
@@ -171,8 +171,9 @@ contains
           row = row + system%mass(k)*y(:, system%graph%column(k))
         end do
       end if
-      mass_product = mass_product + x(1, i)*row(1)
-      mass_product = mass_product + x(2, i)*row(2)
+      do d = 1, system%dim
+        mass_product = mass_product + x(d, i)*row(d)
+      end do
     end do
   end function mass_product
 

@@ -18,7 +18,7 @@ module time_csnewmark
   private
 
   type, extends(scheme_t), public :: csnewmark_t
-    real(wp), allocatable :: xp(:, :)   !< (2, n) predictor that contact allows [L]
+    real(wp), allocatable :: xp(:, :)   !< (dim, n) predictor that contact allows [L]
   contains
     procedure :: set_step => csnewmark_set_step
     procedure :: start => csnewmark_start
@@ -48,10 +48,10 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    allocate (this%xp(2, system%n))
+    allocate (this%xp(system%dim, system%n))
     this%xp = zero
-    if (allocated(system%damping)) allocate (this%rate(2, system%n), source=zero)
-    call make_stage_work(system%n, this%stage_work)
+    if (allocated(system%damping)) allocate (this%rate(system%dim, system%n), source=zero)
+    call make_stage_work(system, this%stage_work)
   end subroutine csnewmark_start
 
   subroutine csnewmark_right_side(this, stage, system, state, b)

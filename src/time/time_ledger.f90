@@ -23,8 +23,8 @@ module time_ledger
     real(wp) :: residual = zero      !< of the balance / largest term so far
     real(wp) :: ratio = one          !< total / (initial + external + motion)
     real(wp) :: largest = zero
-    real(wp) :: momentum(2) = zero
-    real(wp) :: angular = zero       !< about the origin, reference positions
+    real(wp) :: momentum(3) = zero
+    real(wp) :: angular(3) = zero    !< about the origin, reference positions
     integer :: evaluated = -1        !< cycle of the last evaluation
     type(staggered_t) :: staggered   !< of the scheme
     ! Growth: the balance total - external - motion must not rise above its minimum so far.
@@ -58,8 +58,8 @@ contains
     integer :: parts, i, k
     parts = size(model%part)
     allocate (ledger%part_kinetic(parts), ledger%part_internal(parts))
-    allocate (ledger%part_momentum(2, parts), ledger%part_mass(parts), &
-        ledger%mv(2, model%nodes))
+    allocate (ledger%part_momentum(model%dim, parts), ledger%part_mass(parts), &
+        ledger%mv(model%dim, model%nodes))
     call find_owners(model, ledger)
     ledger%part_mass = zero
     do i = 1, model%mesh_nodes
@@ -120,7 +120,6 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(ledger_t), intent(inout) :: ledger
-    real(wp) :: moment
     integer :: i, k
     if (ledger%evaluated == state%cycle) return
     ledger%evaluated = state%cycle
@@ -129,24 +128,34 @@ contains
     call find_internal(model, system, state, ledger)
     ledger%part_kinetic = zero
     ledger%part_momentum = zero
-    moment = zero
+    ledger%angular = zero
     do i = 1, model%mesh_nodes
-      moment = moment + (model%x(1, i)*ledger%mv(2, i) - model%x(2, i)*ledger%mv(1, i))
+      call add_moment(model%x(:, i), ledger%mv(:, i), ledger%angular)
       if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v(:, i), i)
     end do
     do k = 1, size(ledger%share)
       i = ledger%shared(1, k)
       call add_node(ledger, ledger%shared(2, k), ledger%share(k), state%v(:, i), i)
     end do
-    if (allocated(model%rigid)) call add_rigid_parts(model, state, ledger, moment)
-    ledger%angular = moment
-    ledger%momentum = sum(ledger%part_momentum, dim=2)
+    if (allocated(model%rigid)) call add_rigid_parts(model, state, ledger)
+    ledger%momentum = zero
+    ledger%momentum(:model%dim) = sum(ledger%part_momentum, dim=2)
     ledger%kinetic = sum(ledger%part_kinetic)
     ledger%internal = sum(ledger%part_internal)
     if (model%bodies > 0) call add_walls(model, state, ledger)
     call balance(ledger)
     call watch_growth(ledger)
   end subroutine evaluate_ledger
+
+  !> moment = moment + x x p, about the z axis alone in the plane.
+  pure subroutine add_moment(x, p, moment)
+    real(wp), intent(in) :: x(:), p(:)
+    real(wp), intent(inout) :: moment(3)
+    moment(3) = moment(3) + (x(1)*p(2) - x(2)*p(1))
+    if (size(x) == 2) return
+    moment(1) = moment(1) + (x(2)*p(3) - x(3)*p(2))
+    moment(2) = moment(2) + (x(3)*p(1) - x(1)*p(3))
+  end subroutine add_moment
 
   !> Momentum and kinetic energy of rigid walls, which belong to no part.
   pure subroutine add_walls(model, state, ledger)
@@ -157,9 +166,8 @@ contains
     do k = 1, size(model%wall)
       associate (i => model%wall(k)%node)
         if (i == 0) cycle
-        ledger%momentum = ledger%momentum + ledger%mv(:, i)
-        ledger%kinetic = ledger%kinetic &
-            + half*(state%v(1, i)*ledger%mv(1, i) + state%v(2, i)*ledger%mv(2, i))
+        ledger%momentum(:model%dim) = ledger%momentum(:model%dim) + ledger%mv(:, i)
+        ledger%kinetic = ledger%kinetic + half*inner(state%v(:, i), ledger%mv(:, i))
       end associate
     end do
   end subroutine add_walls
@@ -181,7 +189,7 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(ledger_t), intent(inout) :: ledger
-    real(wp) :: middle(2, merge(model%nodes, 0, ledger%staggered%on))
+    real(wp) :: middle(model%dim, merge(model%nodes, 0, ledger%staggered%on))
     real(wp) :: rest(size(ledger%part_internal))
     if (.not. ledger%staggered%on) then
       call strain_energies(system, model%mesh%part, state%u, ledger%part_internal)
@@ -198,29 +206,33 @@ contains
   pure subroutine add_node(ledger, part, share, v, i)
     type(ledger_t), intent(inout) :: ledger
     integer, intent(in) :: part, i
-    real(wp), intent(in) :: share, v(2)
-    real(wp) :: p(2)
+    real(wp), intent(in) :: share, v(:)
+    real(wp) :: p(size(v))
     p = share*ledger%mv(:, i)
-    ledger%part_kinetic(part) = ledger%part_kinetic(part) + half*(v(1)*p(1) + v(2)*p(2))
+    ledger%part_kinetic(part) = ledger%part_kinetic(part) + half*inner(v, p)
     ledger%part_momentum(:, part) = ledger%part_momentum(:, part) + p
   end subroutine add_node
 
+  !> v.p, component by component.
+  pure real(wp) function inner(v, p)
+    real(wp), intent(in) :: v(:), p(:)
+    inner = v(1)*p(1) + v(2)*p(2)
+    if (size(v) == 3) inner = inner + v(3)*p(3)
+  end function inner
+
   !> Centres and rotors of rigid parts: their energies, and momenta about the origin, of the
   !> centres where they are.
-  pure subroutine add_rigid_parts(model, state, ledger, moment)
+  pure subroutine add_rigid_parts(model, state, ledger)
     type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     type(ledger_t), intent(inout) :: ledger
-    real(wp), intent(inout) :: moment
-    real(wp) :: x(2)
     integer :: p
     associate (rigid => model%rigid)
       do p = 1, size(rigid%part)
         associate (c => rigid%centre(p), r => rigid%rotor(p), part => rigid%part(p))
           call add_node(ledger, part, one, state%v(:, c), c)
-          x = model%x(:, c) + state%u(:, c)
-          moment = moment + (x(1)*ledger%mv(2, c) - x(2)*ledger%mv(1, c)) &
-              + rigid%radius(p)*ledger%mv(1, r)
+          call add_moment(model%x(:, c) + state%u(:, c), ledger%mv(:, c), ledger%angular)
+          ledger%angular(3) = ledger%angular(3) + rigid%radius(p)*ledger%mv(1, r)
           ledger%part_kinetic(part) = ledger%part_kinetic(part) &
               + half*state%v(1, r)*ledger%mv(1, r)
         end associate

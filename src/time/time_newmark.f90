@@ -52,8 +52,8 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    allocate (this%d(2, system%n))
-    if (this%dissipates) allocate (this%a_before(2, system%n))
+    allocate (this%d(system%dim, system%n))
+    if (this%dissipates) allocate (this%a_before(system%dim, system%n))
     call start_acceleration('NEWMARK', model, system, this%starts_in_balance, state, status)
   end subroutine newmark_start
 
@@ -77,7 +77,7 @@ contains
     integer :: i, k
     if (this%dissipates) this%a_before = state%a
     do i = 1, size(x, 2)
-      do k = 1, 2
+      do k = 1, size(x, 1)
         a1 = (x(k, i) - this%d(k, i))*this%stage(1)%c_m
         state%v(k, i) = state%v(k, i) &
             + this%h*((one - this%gamma)*state%a(k, i) + this%gamma*a1)

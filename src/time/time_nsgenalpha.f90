@@ -67,9 +67,9 @@ contains
     this%looks_ahead = .false.
     call this%alpha_t%start(model, system, state, status)
     state%a_smooth = state%a
-    allocate (this%free(2, system%n))
+    allocate (this%free(system%dim, system%n))
     this%free = zero
-    call make_stage_work(system%n, this%stage_work)
+    call make_stage_work(system, this%stage_work)
   end subroutine nsgenalpha_start
 
   !> a* [L/T2], U* - U0 [L], V* [L/T] of one dof.
@@ -91,7 +91,7 @@ contains
     real(wp) :: a, x, v
     integer :: i, k
     do i = 1, size(b, 2)
-      do k = 1, 2
+      do k = 1, size(b, 1)
         call predict(this, state%v(k, i), state%a(k, i), state%a_smooth(k, i), a, x, v)
         this%d(k, i) = merge(x/this%kb, (v - state%v(k, i))/this%h, stage == 1)
       end do
@@ -113,7 +113,7 @@ contains
       return
     end if
     do i = 1, size(x, 2)
-      do k = 1, 2
+      do k = 1, size(x, 1)
         call predict(this, state%v(k, i), state%a(k, i), state%a_smooth(k, i), a, u, v)
         ! free/h = V1 - V0 - w
         s1 = (state%v(k, i) + this%free(k, i)/this%h - v)/this%kg

@@ -99,7 +99,7 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    allocate (this%conjugate(2, system%n), this%ku(2, system%n), this%kv(2, system%n))
+    allocate (this%conjugate, this%ku, this%kv, mold=state%u)
     this%conjugate = zero
     this%ku = zero
     this%kv = zero
@@ -126,7 +126,7 @@ contains
     real(wp) :: v
     integer :: i, k
     do i = 1, size(x, 2)
-      do k = 1, 2
+      do k = 1, size(x, 1)
         v = x(k, i)/this%h
         this%conjugate(k, i) = half*this%h*(state%v(k, i) + v)
         state%u(k, i) = state%u(k, i) + x(k, i)

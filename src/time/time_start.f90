@@ -36,7 +36,7 @@ contains
     real(wp), allocatable :: f(:, :), a(:, :)
     real(wp) :: size_f
     if (in_balance .and. .not. allocated(system%damping)) return
-    allocate (f(2, system%n))
+    allocate (f(system%dim, system%n))
     f = zero
     if (.not. in_balance) then
       call give_accelerations(model, state%time, state%a)

@@ -66,7 +66,7 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
-    if (this%theta > half) allocate (this%dv(2, system%n))
+    if (this%theta > half) allocate (this%dv(system%dim, system%n))
     if (this%theta > half) this%dv = zero
     this%dissipates = this%dissipates .or. size(system%massless_layer) > 0
   end subroutine theta_start

@@ -45,7 +45,7 @@ contains
     type(state_t), intent(inout) :: state
     type(status_t), intent(inout) :: status
     call this%theta_t%start(model, system, state, status)
-    call make_stage_work(system%n, this%stage_work)
+    call make_stage_work(system, this%stage_work)
   end subroutine thetapv_start
 
   !> The projection starts from V1: nothing is on its right-hand side but impulses.
