@@ -642,7 +642,10 @@ def write(path, scene, mesh=False, **options):
     common = dict(COMMON, **{k: v for k, v in options.items() if k in COMMON})
     text, meta = SCENES[scene](common, **{k: v for k, v in options.items() if k not in COMMON})
     with open(path, "w", encoding="ascii") as out:
-        out.write(mesh_of(text) if mesh else text)
+        if mesh:
+            said = "".join(" %s=%s" % item for item in options.items())
+            text = "$ Mesh, written by make_scenes.py %s%s --mesh\n" % (scene, said) + mesh_of(text)
+        out.write(text)
     return meta
 
 
