@@ -77,6 +77,15 @@ def hold(number, nodes, x=1, y=1):
     return out + ["*BOUNDARY_SPC_SET", "%d,,%d,%d" % (number, x, y)]
 
 
+def push(number, nodes, u, direction, curve=1):
+    """Prescribed displacement u times the curve of a set of nodes; without nodes of a set that is
+    there."""
+    out = ["*SET_NODE_LIST", "%d," % number] if nodes else []
+    out += [",".join(map(str, nodes[k : k + 8])) + "," for k in range(0, len(nodes), 8)]
+    cards = ["*BOUNDARY_PRESCRIBED_MOTION_SET", "%d,%d,2,%d,%r" % (number, direction, curve, u)]
+    return out + cards
+
+
 def move(nodes, u, direction, curve=1):
     """Prescribed displacement: u(node) times the curve in a direction of 1, 2."""
     cards = ["*BOUNDARY_PRESCRIBED_MOTION_NODE"]
@@ -194,8 +203,7 @@ def hertz(o, h=0.005, ratio=1.0, down=0.0030, drag=0.0007, steps=5, mu=0.3, pair
                   lambda x, t: (x, t - 1.0), young, poisson)
     cards = hold(11, lower.row(0))
     cards += ["*DEFINE_CURVE", "2,", "0.0,0.0", "1.0,0.0", "%r,1.0" % (1.0 + steps)]
-    cards += move(upper.row(-1), lambda n: -down / radius, 2)
-    cards += move(upper.row(-1), lambda n: drag / radius, 1, 2)
+    cards += push(12, upper.row(-1), -down / radius, 2) + push(12, [], drag / radius, 1, 2)
     return pressed(o, "Hertz, Cattaneo, Mindlin", upper, lower, cards, 1 + steps, mu, side,
                    pairing, {"radius": radius, "modulus": young / (1 - poisson**2) / 2})
 
@@ -250,21 +258,23 @@ def punch(o, n=10, down=1.0e-3, mu=0.0, pairing="MORTAR", side="A", young=1000.0
                   [1.0 - t for t in heights(1.0 / n, 20.0)[::-1]],
                   lambda x, t: (x, 20.0 * (t - 1.0)), young, poisson)
     cards = hold(11, lower.row(0)) + hold(12, lower.column(0) + upper.column(0), 1, 0)
-    cards += move(upper.row(-1), lambda n: -down, 2)
+    cards += push(13, upper.row(-1), -down, 2)
     return pressed(o, "flat punch", upper, lower, cards, 1, mu, side, pairing, {"half_width": 1.0})
 
 
 def rod(o, upper=3, lower=5, gap=0.01, down=0.03, mu=0.0, pairing="MORTAR", side="AUTO",
         young=1000.0):
     """Rods of length 1 and section 1, PR 0, a gap apart; the end of the upper goes down."""
+    from analytic import press_fit  # needs numpy, which the other scenes do not
+
     def lines(n):
         return [k / n for k in range(n + 1)]
     high = Block(2, lines(upper), lines(4), lambda x, t: (x, gap + t), young, 0.0)
     low = Block(1, lines(lower), lines(4), lambda x, t: (x, t - 1.0), young, 0.0)
     cards = hold(11, low.row(0)) + hold(12, high.column(0), 1, 0)
-    cards += move(high.row(-1), lambda n: -down, 2)
+    cards += push(13, high.row(-1), -down, 2)
     return pressed(o, "Signorini's rod", high, low, cards, 1, mu, side, pairing,
-                   {"force": young * (down - gap) / 2.0})
+                   {"force": press_fit(down - gap, (1.0, 1.0), (young, young))})
 
 
 SCENES = {f.__name__: f for f in (patch, hertz, cylinder, westergaard, punch, rod)}
