@@ -119,7 +119,8 @@ def constant(curve, value, scene):
 
 
 def contacts(scene):
-    out, mu = [], number(scene["mu"])
+    # FS, and FD and DC where friction falls
+    out, mu = [], ",".join(map(number, (scene["mu"], *scene.get("falls", ()))))
     if scene["single"]:
         out += ["*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE"]
         out += ["%d,,,,%s" % (10 if scene["single"] == "set" else 0, mu)]

@@ -229,10 +229,12 @@ def momentum(matsum, given):
 
 
 def shape(history):
-    """Largest change of a distance between nodes of a rigid body, in units of its size."""
+    """Largest change of a distance between nodes of a rigid body, in units of its size, or of
+    the farthest place, whose digits it has."""
     far = history - history[:, :1]
     length = np.hypot(far[..., 0], far[..., 1])
-    return float(np.abs(length - length[0]).max() / length[0].max())
+    scale = max(length[0].max(), np.abs(history).max())
+    return float(np.abs(length - length[0]).max() / scale)
 
 
 def balance(rcforc):
