@@ -380,8 +380,9 @@ def write_index(results, names, about, out):
             "where it stopped).",
             "",
         ]
-    text = __doc__.split("\n\n")[2]
+    text, outside = __doc__.split("\n\n")[2:4]
     lines += ["- **%s**: %s" % tuple(item) for item in verdict_words(text)]
+    lines += ["", " ".join(outside.split())]
     lines += [
         "",
         "C consistent, L lumped, D dispersion-tuned mass; * massless contact nodes. Growth: the "
