@@ -2,7 +2,7 @@
 
 import numpy as np
 
-CLASSES = ("fine", "coarse", "beyond", "extreme")
+CLASSES = ("fine", "coarse", "beyond", "extreme", "moreau")
 HEAD = "%-8s%6s%8s%8s%8s%8s%10s%10s%10s%10s%10s%10s%6s"
 ROW = "%-8s%6d%8d%8d%8d%8d%10.1e%10.1e%10.1e%10.1e%10.1e%10.1e%6d"
 NAMES = (
@@ -35,7 +35,7 @@ def summary(results):
     return {
         "runs": len(results),
         "touch": sum(r["touched"] for r in told),
-        "warned": sum(bool(r["warned"]) and r["code"] == 0 for r in told),
+        "warned": sum(not r["silent"] and r["code"] == 0 for r in told),
         "stopped": sum(r["code"] != 0 for r in results),
         "failed": sum(bool(r["faults"]) for r in results),
         "median": float(np.median(depths)),
