@@ -102,9 +102,10 @@ contains
   !> mirrored. The other keeps an allowance. Of several places of a node the most opposite
   !> one counts. The first n_first places are of side 1, sorted by node, the others of side
   !> 2.
-  pure subroutine settle_twins(side, is_self, x, u, place, n_first, n)
+  pure subroutine settle_twins(side, is_self, finer, x, u, place, n_first, n)
     type(surface_t), intent(in) :: side(2)
     logical, intent(in) :: is_self
+    integer, intent(in) :: finer
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: n_first, n
     type(place_t), intent(inout) :: place(:)
@@ -117,7 +118,8 @@ contains
       do while (b > 0 .and. b <= n)
         if (place(b)%node /= vertex) exit
         if (is_best_twin(side(1), side(merge(1, 2, is_self)), place(:n), a, b)) &
-            call settle_pair(side(1), side(merge(1, 2, is_self)), x, u, place(a), place(b))
+            call settle_pair(side(1), side(merge(1, 2, is_self)), finer, x, u, place(a), &
+            place(b))
         b = b + 1
       end do
     end do
@@ -224,8 +226,9 @@ contains
     end if
   end function distance_at
 
-  pure subroutine settle_pair(side_a, side_b, x, u, a, b)
+  pure subroutine settle_pair(side_a, side_b, finer, x, u, a, b)
     type(surface_t), intent(in) :: side_a, side_b
+    integer, intent(in) :: finer
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(place_t), intent(inout) :: a, b
     real(wp) :: turn_a, turn_b
@@ -240,7 +243,9 @@ contains
     else if (a%side == b%side) then
       a_stays = stays_in_one_surface(side_a, a, b)
     end if
-    is_exact = a%is_exact .or. b%is_exact
+    ! Sizes near a tie may refuse both, each by another edge; a corner on a flat is meant so.
+    is_exact = a%is_exact .or. b%is_exact .or. &
+        (finer == finer_auto .and. max(turn_a, turn_b) <= corner)
     a%is_exact = a_stays .and. is_exact
     b%is_exact = .not. a_stays .and. is_exact
     a%is_twin = .not. a_stays .and. is_exact
