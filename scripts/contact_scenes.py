@@ -182,20 +182,27 @@ def pressed(o, title, upper, lower, cards, steps, mu, side, pairing, more):
                       x={n: b.place[n][0] for b, f in zip((upper, lower), faces) for n in f})
 
 
-def hertz(o, h=0.005, ratio=1.0, down=0.0030, drag=0.0007, steps=5, mu=0.3, pairing="MORTAR",
-          side="B", young=1000.0, poisson=0.3):
-    """Blocks of 2 x 1, the upper with the face y = x^2/2 and edges h near the middle, the lower
-    flat with edges ratio h. The top goes down by `down`, then sideways by `drag` in steps."""
+def hertz_blocks(h, ratio, young, poisson):
+    """(upper, lower) block of case H, 2 x 1: the upper with the face y = x^2/2 and edges h near
+    the middle, the lower flat with edges ratio h."""
     grids = [both_sides(graded(k * h, 0.09, 1.0)) for k in (1.0, ratio)]
     upper = Block(2, grids[0], heights(h, 1.0),
                   lambda x, t: (x, x * x / 2 + t * (1.0 - x * x / 2)), young, poisson)
     lower = Block(1, grids[1], [1.0 - t for t in heights(ratio * h, 1.0)[::-1]],
                   lambda x, t: (x, t - 1.0), young, poisson)
+    return upper, lower
+
+
+def hertz(o, h=0.005, ratio=1.0, down=0.0030, drag=0.0007, steps=5, mu=0.3, pairing="MORTAR",
+          side="B", young=1000.0, poisson=0.3):
+    """The blocks of hertz_blocks. The top goes down by `down`, then sideways by `drag` in
+    steps."""
+    upper, lower = hertz_blocks(h, ratio, young, poisson)
     cards = hold(11, lower.row(0))
     cards += ["*DEFINE_CURVE", "2,", "0.0,0.0", "1.0,0.0", "%r,1.0" % (1.0 + steps)]
     cards += move(upper.row(-1), lambda n: -down, 2) + move(upper.row(-1), lambda n: drag, 1, 2)
     return pressed(o, "Hertz, Cattaneo, Mindlin", upper, lower, cards, 1 + steps, mu, side,
-                   pairing, {"radius": 1.0, "modulus": young / (1 - poisson**2) / 2})
+                   pairing, {"radius": 1.0, "modulus": young / (1 - poisson**2) / 2, "mu": mu})
 
 
 def cylinder(o, h=0.8, ratio=1.0, load=35.0e3, mu=0.0, pairing="MORTAR", side="B"):
