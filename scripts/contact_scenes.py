@@ -202,7 +202,9 @@ def hertz(o, h=0.005, ratio=1.0, down=0.0030, drag=0.0007, steps=5, mu=0.3, pair
     cards += ["*DEFINE_CURVE", "2,", "0.0,0.0", "1.0,0.0", "%r,1.0" % (1.0 + steps)]
     cards += move(upper.row(-1), lambda n: -down, 2) + move(upper.row(-1), lambda n: drag, 1, 2)
     return pressed(o, "Hertz, Cattaneo, Mindlin", upper, lower, cards, 1 + steps, mu, side,
-                   pairing, {"radius": 1.0, "modulus": young / (1 - poisson**2) / 2, "mu": mu})
+                   pairing, {"radius": 1.0, "modulus": young / (1 - poisson**2) / 2, "mu": mu, "h": h,
+                             "down": down, "drag": drag, "steps": steps, "young": young,
+                             "poisson": poisson})
 
 
 def cylinder(o, h=0.8, ratio=1.0, load=35.0e3, mu=0.0, pairing="MORTAR", side="B"):
