@@ -13,7 +13,7 @@ import startup  # before what is no part of Python
 import numpy as np
 
 import analytic
-from draw_faces import face_of, flat_face
+from contact_errors import face_of, flat_face
 import tables
 
 DECKS = os.path.join(startup.ROOT, "input", "catalogue")

@@ -13,33 +13,8 @@ import tempfile
 import startup  # before what is no part of Python
 import numpy as np
 
-import analytic
-from draw_faces import face_of, off_lines, off_nodes
 import make_scenes
-import tables
-
-
-def hertz_of(meta, folder):
-    """The closed form for the measured load, and the tangential force [F L-1]."""
-    last = tables.read_run(folder, "rcforc").select(side=2)
-    exact = analytic.Hertz(meta["radius"], meta["modulus"], abs(last["fy"][-1]))
-    return exact, abs(last["fx"][-1])
-
-
-def hertz_errors(meta, folder):
-    """Relative L2 errors of pressure and shear on the nodes of the lower face."""
-    exact, force = hertz_of(meta, folder)
-    x, length, fx, fy, _ = face_of(meta["x"], folder, 2)
-    p, q = np.abs(fy) / length, np.abs(fx) / length
-    return off_nodes(length, p, exact.pressure(x)), off_nodes(length, q, exact.shear(x, 0.3, force))
-
-
-def wave_errors(meta, folder, side):
-    """Largest error at inner nodes, |x| < .8 a, in parts of the largest pressure; relative L2."""
-    exact = analytic.Westergaard(meta["wave"], meta["full"], meta["mean"])
-    x, _, _, _, p = face_of(meta["x"], folder, side)
-    off = np.abs(p - exact.pressure(x)) / exact.pressure(0.0)
-    return off[x < 0.8 * exact.half_width].max(), off_lines(x, p, exact.pressure)
+from contact_errors import face_of, hertz_errors, hertz_of, wave_errors
 
 
 def solve(folder, scene, **options):
@@ -69,7 +44,8 @@ def measure(folder):
             meta, summary = solve(folder, "hertz", h=h, ratio=ratio, pairing=pairing, side=side)
             if not meta:
                 continue
-            found["hertz"].append((name, h, *hertz_errors(meta, folder), summary["cpu"]))
+            off = hertz_errors(meta, folder)
+            found["hertz"].append((name, h, off["p_y"], off["q_x"], summary["cpu"]))
             if h == 0.005 and name != "MORTAR, matching":
                 x, length, fx, fy, _ = face_of(meta["x"], folder, 2)
                 faces.append((name, colour, x, -fy / length, fx / length, hertz_of(meta, folder)))

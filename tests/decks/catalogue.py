@@ -13,7 +13,7 @@ from lessons import expected, solved
 from scenes import at_most, check, finish, table
 
 import analytic
-from draw_faces import face_of, flat_face, off_nodes
+from contact_errors import face_of, flat_face, off_nodes
 import make_scenes
 
 FOLDER = os.path.join(scenes.ROOT, "input", "catalogue")
