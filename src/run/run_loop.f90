@@ -142,8 +142,8 @@ contains
     end do
     run%rigid%keeps_levers = run%rigid%change <= accepted .and. &
         .not. allocated(run%rigid%lever_before)
-    if (.not. run%rigid%keeps_levers) call fail(status, status_numerical, 'rigid parts turn '// &
-        'too far in the step: its turns are not found', hint='take a smaller step')
+    if (.not. run%rigid%keeps_levers) call fail(status, status_numerical, 'rigid parts '// &
+        'turn too far in the step: its turns are not found', hint='take a smaller step')
   end subroutine find_turns
 
   !> Further passes of a load step whose bodies are not held by supports alone.
