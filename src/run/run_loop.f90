@@ -119,10 +119,11 @@ contains
   end subroutine advance_to
 
   !> Solves the stage until the turns of rigid parts are those that their levers were made for.
-  !> Each pass gains the digits of half a turn. Where no turn repeats itself (a contact opens for
-  !> one and closes for the next) the step keeps the levers of its last pass, with which the work
-  !> of contact is exact; gaps at its end err by change x the size of the part, up to `accepted`.
-  !> Schemes whose forces act on in the next step need the turn itself: there it is an error.
+  !> Each pass gains the digits of half a turn. Where no turn repeats itself (a contact opens
+  !> for one and closes for the next) the step keeps the levers of its last pass, with which the
+  !> work of contact is exact; gaps at its end err by change x the size of the part, up to
+  !> `accepted`. Schemes whose forces act on in the next step need the turn itself: there it is
+  !> an error.
   subroutine find_turns(run, stage, t1, acting, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
