@@ -73,11 +73,13 @@ fuzz: ## run N (20000) damaged decks; SEED=1
 	@BIPACT=$(BIN) $(PYTHON3) tests/fuzz/fuzz.py --count $(or $(N),20000) --seed $(or $(SEED),1) \
 	  --keep build/fuzz
 
-collide: ## run N (200) random collisions of bodies and judge them from outside; SEED=1, FRESH=1
+collide: ## run N (200) random collisions each of deformable bodies, with rigid parts, with mortars; SEED=1, FRESH=1
 	+@$(again) venv
 	+@$(again) all
-	@BIPACT=$(BIN) .venv/bin/python scripts/collide.py $(or $(N),200) --seed $(or $(SEED),1) \
-	  $(if $(FRESH),--fresh)
+	@failed=0; for kind in plain rigid mortar; do \
+	  echo "$$kind"; BIPACT=$(BIN) .venv/bin/python scripts/collide.py $(or $(N),200) \
+	  --seed $(or $(SEED),1) $(if $(FRESH),--fresh) --out build/collide/$$kind \
+	  $$(test $$kind = plain || echo --$$kind) || failed=1; done; exit $$failed
 
 bench: ## measure speed and accuracy of the two-bar impact and of the reader
 	+@$(again) all bench-programs
@@ -93,11 +95,11 @@ bench-fclib: ## all contact solvers over FCLIB=dir of problems; SOLVERS=AUTO,GS,
 	@.venv/bin/python bench/contact_problems.py $(or $(FCLIB),../shared/fclib) \
 	  $(if $(SOLVERS),--solvers $(SOLVERS)) $(if $(SICONOS),--siconos $(SICONOS)) $(if $(OUT),--out $(OUT))
 
-report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: part of it; PEERS=1
+report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: part of it; PEERS=1; STATIC=1
 	+@$(again) venv
 	+@$(again) all
 	@.venv/bin/python bench/report.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) \
-	  $(if $(PEERS),--peers) $(if $(FRESH),--fresh)
+	  $(if $(PEERS),--peers) $(if $(STATIC),--static) $(if $(FRESH),--fresh)
 
 stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build; REDUCED=1
 	+@$(again) venv

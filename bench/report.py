@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Error against run time: every scheme x allowed mass x mesh x Courant number on exact scenes.
 
-    report.py [--quick | --reduced] [--jobs J] [--out doc/report] [--fresh] [--peers]
+    report.py [--quick | --reduced] [--jobs J] [--out doc/report] [--fresh] [--peers] [--static]
     report.py --one "unaligned|THETA|DISPERSION|1|100|0.5"
 
 Each run is made with tables, for the errors, and up to three times without, for the least
@@ -11,7 +11,9 @@ build/report/runs.jsonl, so that an interrupted study goes on where it stopped; 
 over. Writes index.md, choose.md (what to take for which need), runs.csv and
 figures. --quick takes few meshes and steps and writes to build/report/quick; --reduced takes the
 three coarsest meshes of each scene; --peers runs CalculiX where it is
-installed, on the same scenes; --one makes one run of the study and prints its errors."""
+installed, on the same scenes; --static makes only
+the part on static contact pairings (static_pairings.py), which has CalculiX beside it wherever it
+is installed; --one makes one run of the study and prints its errors."""
 
 import json
 import os
@@ -28,6 +30,7 @@ import make_bars
 import peers
 import report_pages
 import report_scenes
+import static_pairings
 from report_figures import write_figures
 from report_scenes import BY_BARS, SCENES
 
@@ -219,11 +222,16 @@ def main():
     parser = common.study_parser(__doc__)
     parser.add_argument("--peers", action="store_true", help="other programs beside it")
     parser.add_argument("--one", metavar="KEY", help="one run: scene|method|mass|redist|n|courant")
+    parser.add_argument("--static", action="store_true", help="static contact pairings alone")
     a = parser.parse_args()
     if a.one:
         return one(a.one)
     size = "quick" if a.quick else "reduced" if a.reduced else "full"
     store, out = common.study_folders("report", a)
+    static = static_pairings.study(store, size, a.jobs, a.peers or size != "quick")
+    static_pairings.write(static, size, report_pages.COMMANDS[size], out)
+    if a.static:
+        return 0
     started = start_up(store)
     pairs, refused = combinations.taken(store, combinations.ONE_MASS)
     repeats = 3 if size == "full" else 1
@@ -231,7 +239,7 @@ def main():
     others = peers.study(store, size) if a.peers else []
     report_pages.write_csv(results + others, out)
     write_figures(results, others, pairs, started, out)
-    about = dict(size=size, started=started, refused=refused, pairs=pairs, peers=others)
+    about = dict(size=size, started=started, refused=refused, pairs=pairs, peers=others, static=static)
     report_pages.write_index(results, about, out)
     report_pages.write_choose(results, about, out)
     print(

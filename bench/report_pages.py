@@ -9,6 +9,7 @@ import numpy as np
 from combinations import EXPLICIT, refusal_table
 from report_figures import MEASURES, front
 from report_scenes import FINE, SCENES, kept_reference
+from static_pairings import choice_lines
 
 COLUMNS = (
     "program scene method mass redist n courant dt err e_v e_R e_R2 energy work cpu cpu_tables "
@@ -138,6 +139,7 @@ def write_index(results, about, out):
     lines += ["## Figures", "", FIGURES, ""]
     lines += ["![%s](%s.png)" % (scene, scene) for scene in SCENES]
     lines += ["", "Every run with all its figures: [runs.csv](runs.csv).", ""]
+    lines += STATIC
     lines += peer_lines(about["peers"])
     with open(os.path.join(out, "index.md"), "w") as file:
         file.write("\n".join(lines))
@@ -150,6 +152,9 @@ FIGURES = (
     "of the paper; the others are grey. The vertical line is a start without steps. Errors of 1e-7 and less are "
     "round-off: they stand at the lower edge with their value."
 )
+
+
+STATIC = ["## Static contact", "", "NODE and MORTAR on closed forms: [static.md](static.md).", ""]
 
 
 def reference_lines():
@@ -330,6 +335,8 @@ def write_choose(results, about, out):
     ]
     for need in NEEDS:
         lines += need_lines(results, about, need)
+    lines += ["## Pairing of contact faces, in statics", ""] + choice_lines(about["static"])
+    lines += ["Tables and curves: [static.md](static.md).", ""]
     grown = sorted({common.label(r) for r in results if r.get("growth")})
     lines += ["## Warnings and failures of these runs", ""]
     lines.append(

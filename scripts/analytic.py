@@ -15,6 +15,9 @@ Graff 1975, Wave Motion in Elastic Solids; Goldsmith 1960, Impact).
     Hertz, Westergaard, punch_force: pressure of bodies that are pressed together
     unequal_lengths, staircase, interface, touch_time: closed forms
     mass_on_rod     a rigid mass that strikes a rod
+    press_fit       bars that are pushed together: overlap, or a gap that is closed
+    StickSlip       a block on a belt, held by a spring
+    disc_impact, three_in_a_row: impacts of rigid bodies
     GlidingBlock    a block on its two lower corners in a smooth bowl
     Belt            a block on a belt
 """
@@ -567,7 +570,8 @@ class SlidingBlock:
 
 def press_fit(overlap, lengths, moduli):
     """Pressure [F L-2] between two bars (lengths [L], moduli [F L-2]) held at their far ends
-    whose meeting ends overlap by so much [L]: p = overlap/(L1/E1 + L2/E2)."""
+    whose meeting ends overlap by so much [L]: p = overlap/(L1/E1 + L2/E2). The same where an
+    end is pushed through a gap (Signorini 1933): the overlap is the way less the gap."""
     return overlap / sum(length / modulus for length, modulus in zip(lengths, moduli))
 
 
@@ -617,10 +621,34 @@ def mass_on_rod(impedance, mass, velocity, t):
     return impedance * velocity * np.exp(-impedance * np.asarray(t) / mass)
 
 
+# ---------------------------------------------------------------- rigid bodies
+
+
+def disc_impact(radius, gyration2, mu, rest, vt, vn):
+    """(v_t, v_n, spin) after the impact of a rigid disc whose lowest point meets a plane at vt
+    along and vn towards it [L T-1], no spin before. R radius [L], k^2 = J/m [L2], kappa = 1 +
+    R^2/k^2. It slips throughout where |vt| >= mu kappa vn, the impulse then being mu (1 + e) m
+    vn; else it sticks and its point leaves with -e vt: restitution in both directions (Routh
+    1905, Dynamics of a System of Rigid Bodies I; the law is that of Moreau 1988)."""
+    kappa = 1.0 + radius**2 / gyration2
+    if abs(vt) >= mu * kappa * vn:
+        jump = -np.copysign(mu * (1.0 + rest) * vn, vt)
+    else:
+        jump = -(1.0 + rest) * vt / kappa
+    return vt + jump, rest * vn, jump * radius / gyration2
+
+
+def three_in_a_row(rest, velocity=1.0):
+    """Velocities of three equal rigid bodies, the first of which arrives at the other two, which
+    touch: both contacts take part in one impact (Moreau 1988, Unilateral contact and dry
+    friction in finite freedom dynamics)."""
+    third = (1.0 + rest) * velocity / 3.0
+    return velocity - 2.0 * third, third, third
+
+
 @dataclass(frozen=True)
 class GlidingBlock:
-    """A stiff block that glides without friction on its two lower corners in a bowl, small
-    swings.
+    """A stiff block that glides without friction on its two lower corners in a bowl.
 
     It turns about the centre of the bowl, with the inertia I about it. Its corners are at depth
     d = sqrt(R^2 - a^2). A rigid body has its centre raised by (d - H/2) phi^2/2; in the
@@ -643,12 +671,18 @@ class GlidingBlock:
         arm = self.depth - 0.5 * self.height
         return (4.0 * self.half_width**2 + self.height**2) / 12.0 + arm**2
 
-    def period(self, small_displacements=True):
-        """[T]; of the physical pendulum without the kinematics of small displacements."""
+    def period(self, small_displacements=True, swing=0.0):
+        """[T] of small swings; without the kinematics of small displacements that of the
+        physical pendulum with an amplitude `swing` [rad], by the arithmetic-geometric mean
+        (Gauss)."""
         raised = self.radius**2 / self.depth
+        one, other = 1.0, 1.0
         if not small_displacements:
             raised = self.depth - 0.5 * self.height
-        return float(2.0 * np.pi * np.sqrt(self.inertia / (self.gravity * raised)))
+            other = np.cos(0.5 * swing)
+            while abs(one - other) > 1.0e-15:
+                one, other = 0.5 * (one + other), np.sqrt(one * other)
+        return float(2.0 * np.pi * np.sqrt(self.inertia / (self.gravity * raised)) / one)
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Decks of the scenes of collide.py."""
 
+import collide_scenes as scenes
+
 
 def number(value):
     """A number that reads back equal."""
@@ -28,7 +30,7 @@ def control(scene):
         "*CONTROL_IMPLICIT_DYNAMICS",
         "1,",
         "*BIPACT_TIME",
-        "THETA,0.5",
+        scene["scheme"],
         "*BIPACT_LEDGER",
         "1,",
     ]
@@ -40,7 +42,7 @@ def geometry(scene):
     for ids, b in zip(scene["ids"], scene["bodies"]):
         for i, place, v in zip(ids, b["xy"], b["velocity"]):
             nodes.append((i, "%d,%s,%s" % (i, number(place[0]), number(place[1]))))
-            if v.any():
+            if v.any() and not b["rigid"]:
                 velocities.append((i, "%d,%s,%s" % (i, number(v[0]), number(v[1]))))
     for count, (k, e) in enumerate(scene["order"], 1):
         ids = scene["ids"][k]
@@ -57,8 +59,21 @@ def parts(scene):
         material = [number(b[name]) for name in ("density", "young", "poisson")]
         out += ["*PART", "body %d" % k, "%d,%d,%d" % (k, k, k)]
         out += ["*SECTION_SHELL", "%d,13,,4" % k, "1.0,"]
-        out += ["*MAT_ELASTIC", "%d,%s" % (k, ",".join(material))]
+        if b["rigid"]:
+            held = "1.0,7,7" if b["held"] else "0.0,0,0"
+            out += ["*MAT_RIGID", "%d,%s" % (k, material[0]), held, ","]
+        else:
+            out += ["*MAT_ELASTIC", "%d,%s" % (k, ",".join(material))]
         out += ["*SET_PART_LIST", "%d," % (10 + k), "%d," % k]
+    return out + cards("INITIAL_VELOCITY_RIGID_BODY", rigid_velocities(scene))
+
+
+def rigid_velocities(scene):
+    out = []
+    for k, b in enumerate(scene["bodies"], 1):
+        if b["rigid"] and not (b["held"] or b["driven"]):
+            v, omega = scenes.velocities_of(b)
+            out += ["%d,%s,%s,,,,%s" % (k, number(v[0]), number(v[1]), number(omega))]
     return out
 
 
@@ -70,6 +85,9 @@ def loads(scene):
             curve += 1
             out += constant(curve, -g, scene) + ["*LOAD_BODY_" + name, "%d,1.0" % curve]
     for k, (ids, b) in enumerate(zip(scene["ids"], scene["bodies"]), 1):
+        if b["rigid"]:
+            curve = move_rigid(out, k, b, curve, scene)
+            continue
         if b["held"]:
             out += ["*SET_NODE_LIST", "%d," % (20 + k)] + in_eights(ids[b["held"]])
             out += ["*BOUNDARY_SPC_SET", "%d,,1,1" % (20 + k)]
@@ -83,6 +101,16 @@ def loads(scene):
     return out
 
 
+def move_rigid(out, k, b, curve, scene):
+    """A driven rigid part moves at its speed and does not turn; returns the last curve."""
+    if b["driven"]:
+        for dof, value in ((1, b["drive"][0]), (2, b["drive"][1]), (7, 0.0)):
+            curve += 1
+            out += constant(curve, value, scene)
+            out += ["*BOUNDARY_PRESCRIBED_MOTION_RIGID", "%d,%d,0,%d" % (k, dof, curve)]
+    return curve
+
+
 def constant(curve, value, scene):
     end = 2.0 * scene["end"]
     return ["*DEFINE_CURVE", "%d," % curve] + [
@@ -91,7 +119,8 @@ def constant(curve, value, scene):
 
 
 def contacts(scene):
-    out, mu = [], number(scene["mu"])
+    # FS, and FD and DC where friction falls
+    out, mu = [], ",".join(map(number, (scene["mu"], *scene.get("falls", ()))))
     if scene["single"]:
         out += ["*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE"]
         out += ["%d,,,,%s" % (10 if scene["single"] == "set" else 0, mu)]
@@ -126,6 +155,7 @@ def tables(scene, every):
         names += ["GLSTAT", "MATSUM", "RCFORC", "SLEOUT"]
         names += ["RWFORC"] if scene["wall"] else []
         names += [] if is_free(scene) else ["SPCFORC"]
+        names += ["RBDOUT"] if any(b["rigid"] for b in scene["bodies"]) else []
     row = number(every * scene["dt"]) + ","
     nodes = [i for ids in scene["ids"] for i in ids]
     out = [line for name in names for line in ("*DATABASE_" + name, row)]

@@ -228,6 +228,15 @@ def momentum(matsum, given):
     return float(np.abs(total - total[0] - given[: len(total)]).max() / largest)
 
 
+def shape(history):
+    """Largest change of a distance between nodes of a rigid body, in units of its size, or of
+    the farthest place, whose digits it has."""
+    far = history - history[:, :1]
+    length = np.hypot(far[..., 0], far[..., 1])
+    scale = max(length[0].max(), np.abs(history).max())
+    return float(np.abs(length - length[0]).max() / scale)
+
+
 def balance(rcforc):
     """Largest sum of the forces on both sides of a contact, in units of the largest force."""
     forces = rcforc.vectors("fx", "fy", "ix", "iy")

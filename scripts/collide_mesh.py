@@ -168,6 +168,13 @@ def turned(xy, angle):
     return xy @ np.array([[c, s], [-s, c]])
 
 
+def centroid(loop):
+    """Centre of the area within an outline."""
+    a, b = loop - loop[0], np.roll(loop - loop[0], -1, axis=0)
+    twice = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return loop[0] + ((a + b) * twice[:, None]).sum(axis=0) / (3.0 * twice.sum())
+
+
 def edge_lengths(loop):
     """Lengths of the edges of an outline, given as places in order."""
     return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)

@@ -5,10 +5,12 @@ draw(seed, number) makes a scene from these two numbers alone. Speeds are about 
 
     kind        thrown, stacked or wedged; extreme: what is beyond ordinary ranges
     bodies      xy, elements, loop (outline), young, density, poisson, velocity (of the nodes),
-                held (nodes that cannot move), driven (nodes moved by the velocity `drive`)
+                held (nodes that cannot move), driven (nodes moved by the velocity `drive`),
+                rigid (a rigid part: held or driven as a whole)
     gravity     acceleration; wall: None or (point, normal, mu)
     pairs       (body, body) in contact with friction mu; single: "", "all" or "set", the card
                 of one contact for all bodies
+    scheme      card of *BIPACT_TIME
     ids         node numbers of each body; order: elements in the order of the deck
 """
 
@@ -36,6 +38,7 @@ def body(rng, raw):
         "held": [],
         "driven": [],
         "drive": np.zeros(2),
+        "rigid": False,
     }
 
 
@@ -103,9 +106,9 @@ def set_rates(scene):
     """The Courant number, and the round-off to expect in the energy: stresses from
     displacements of the size of an element are wrong by eps E, their work in n steps of h by
     eps E h sqrt(n) v/edge, which is eps (c/v)^2 (h v/edge) sqrt(n) of the energy, v = 1."""
-    bodies, dt = scene["bodies"], scene["dt"]
-    scene["courant"] = dt * max(sound_of(b) / smallest_edge(b) for b in bodies)
-    rate = max(sound_of(b) ** 2 / smallest_edge(b) for b in bodies)
+    bodies, dt = [b for b in scene["bodies"] if not b["rigid"]], scene["dt"]
+    scene["courant"] = dt * max((sound_of(b) / smallest_edge(b) for b in bodies), default=0.0)
+    rate = max((sound_of(b) ** 2 / smallest_edge(b) for b in bodies), default=0.0)
     scene["roundoff"] = float(np.finfo(float).eps * rate * dt * math.sqrt(scene["steps"]))
 
 
@@ -322,7 +325,37 @@ def inner_corner(rng, across):
 KINDS = {"thrown": thrown, "stacked": stacked, "wedged": wedged}
 
 
-def draw(seed, number, single=False, mortar=False):
+def make_rigid(rng, scene):
+    """Some bodies, one at least, as rigid parts; the scheme mostly one with a law for their
+    impacts. Of two bodies that are pressed together one is deformable."""
+    bodies = scene["bodies"]
+    for b in bodies:
+        b["rigid"] = bool(rng.random() < 0.4)
+    bodies[rng.integers(len(bodies))]["rigid"] = True
+    if any(b["driven"] for b in bodies):
+        one = rng.integers(2)
+        bodies[0]["rigid"], bodies[1]["rigid"] = bool(one), not one
+    if rng.random() < 0.7:
+        scene["scheme"] = "MOREAU,0.5,,%r" % float(rng.choice([0.0, 0.5, 1.0]))
+    set_rates(scene)
+
+
+def velocities_of(b):
+    """Velocity of the centre of mass and rate of rotation of a rigid body."""
+    arm, v = b["xy"] - b["xy"].mean(axis=0), b["velocity"].mean(axis=0)
+    turning = arm[:, 0] * b["velocity"][:, 1] - arm[:, 1] * b["velocity"][:, 0]
+    omega = turning.sum() / (arm * arm).sum()
+    to_centre = mesh.centroid(loop_of(b)) - b["xy"].mean(axis=0)
+    return v + omega * np.array([-to_centre[1], to_centre[0]]), omega
+
+
+def may_meet_rigid(scene):
+    """Whether two rigid parts, or one and a wall, may meet."""
+    rigid = [b["rigid"] for b in scene["bodies"]]
+    return any(rigid) and bool(scene["wall"]) or sum(rigid) > 1
+
+
+def draw(seed, number, single=False, mortar=False, rigid=False):
     """The scene of a number."""
     rng = np.random.default_rng([seed, number])
     kind = str(rng.choice(sorted(KINDS)))
@@ -331,7 +364,7 @@ def draw(seed, number, single=False, mortar=False):
     count = int(rng.choice([2, 3, 4, 5], p=[0.4, 0.3, 0.2, 0.1]))
     across = min(8.0, max(3.0, math.sqrt(200.0 / count) - 1.0))
     scene = dict(kind=kind, extreme=extreme, count=count, across=across)
-    scene.update(gravity=np.zeros(2), wall=None)
+    scene.update(gravity=np.zeros(2), wall=None, scheme="THETA,0.5")
     arrange = KINDS[kind](rng, scene)
     set_steps(rng, scene)
     set_materials(rng, scene)
@@ -342,6 +375,8 @@ def draw(seed, number, single=False, mortar=False):
     scene["pairs"] = [(a, b) for a in range(last) for b in range(a + 1, last)]
     other = np.random.default_rng([seed, number, 1])  # the scenes are those without mortars
     scene["mortars"] = {frozenset(p) for p in scene["pairs"] if mortar and other.random() < 0.5}
+    if rigid:
+        make_rigid(np.random.default_rng([seed, number, 2]), scene)
     number_nodes(scene)
     angle = rng.choice([0.0, rng.uniform(0.0, 6.283)])
     return transformed(scene, turn(angle)) if angle else scene

@@ -48,7 +48,9 @@ def static_deck(o, title, blocks, cards, steps, pair):
     out += ["*CONTROL_IMPLICIT_GENERAL", "1,%r" % (o["dt"] or 1.0)]
     out += ["*CONTROL_IMPLICIT_DYNAMICS", "0,"]
     # Residuals of the passes and of contact add up to the error of an exact answer.
-    out += ["*BIPACT_CONTACT", ",%r" % (o["tol"] or 1.0e-13), "*BIPACT_STATIC", ",,1.0e-15"]
+    out += ["*BIPACT_CONTACT", ",%r" % (o["tol"] or 1.0e-13)]
+    out += [",%s" % pair["frame"]] if pair.get("frame") else []
+    out += ["*BIPACT_STATIC", ",,1.0e-15"]
     out += ["*NODE"]
     for b in blocks:
         out += ["%d,%r,%r" % ((n,) + turned(o, *p)) for n, p in b.place.items()]
@@ -75,6 +77,15 @@ def hold(number, nodes, x=1, y=1):
     out = ["*SET_NODE_LIST", "%d," % number]
     out += [",".join(map(str, nodes[k : k + 8])) + "," for k in range(0, len(nodes), 8)]
     return out + ["*BOUNDARY_SPC_SET", "%d,,%d,%d" % (number, x, y)]
+
+
+def push(number, nodes, u, direction, curve=1):
+    """Prescribed displacement u times the curve of a set of nodes; without nodes of a set that is
+    there."""
+    out = ["*SET_NODE_LIST", "%d," % number] if nodes else []
+    out += [",".join(map(str, nodes[k : k + 8])) + "," for k in range(0, len(nodes), 8)]
+    cards = ["*BOUNDARY_PRESCRIBED_MOTION_SET", "%d,%d,2,%d,%r" % (number, direction, curve, u)]
+    return out + cards
 
 
 def move(nodes, u, direction, curve=1):
@@ -174,30 +185,41 @@ def patch(o, upper=5, lower=3, low=0.0, high=1.0, slope=0.0, mu=0.3, pairing="MO
 # ---------------------------------------------------------------- round on flat
 
 
-def pressed(o, title, upper, lower, cards, steps, mu, side, pairing, more):
+def pressed(o, title, upper, lower, cards, steps, mu, side, pairing, more, frame=""):
     text = static_deck(o, title, (lower, upper), cards, steps,
-                       {"mu": mu, "side": side, "pairing": pairing})
+                       {"mu": mu, "side": side, "pairing": pairing, "frame": frame})
     faces = upper.row(0), lower.row(-1)
     return text, dict(more, dt=o["dt"] or 1.0, tend=float(steps), faces=faces,
                       x={n: b.place[n][0] for b, f in zip((upper, lower), faces) for n in f})
 
 
-def hertz(o, h=0.005, ratio=1.0, down=0.0030, drag=0.0007, steps=5, mu=0.3, pairing="MORTAR",
-          side="B", young=1000.0, poisson=0.3, radius=1.0):
-    """Blocks of 2 x 1, the upper with the face y = x^2/(2 radius) and edges h near the middle, the
-    lower flat with edges ratio h. The top goes down by down/radius, so that the half width stays
-    as it is, then sideways by drag/radius in steps."""
+def hertz_blocks(h, ratio, young, poisson, radius=1.0):
+    """(upper, lower) block of case H, 2 x 1: the upper with the face y = x^2/(2 radius) and edges h
+    near the middle, the lower flat with edges ratio h."""
     grids = [both_sides(graded(k * h, 0.09, 1.0)) for k in (1.0, ratio)]
-    upper = Block(2, grids[0], heights(h, 1.0),
-                  lambda x, t: (x, x * x / 2 / radius + t * (1.0 - x * x / 2 / radius)), young, poisson)
+
+    def curved(x, t):
+        y = x * x / 2 / radius
+        return x, y + t * (1.0 - y)
+
+    upper = Block(2, grids[0], heights(h, 1.0), curved, young, poisson)
     lower = Block(1, grids[1], [1.0 - t for t in heights(ratio * h, 1.0)[::-1]],
                   lambda x, t: (x, t - 1.0), young, poisson)
+    return upper, lower
+
+
+def hertz(o, h=0.005, ratio=1.0, down=0.0030, drag=0.0007, steps=5, mu=0.3, pairing="MORTAR",
+          side="B", young=1000.0, poisson=0.3, radius=1.0, frame=""):
+    """The blocks of hertz_blocks. The top goes down by down/radius, so that the half width stays
+    as it is, then sideways by drag/radius in steps."""
+    upper, lower = hertz_blocks(h, ratio, young, poisson, radius)
     cards = hold(11, lower.row(0))
     cards += ["*DEFINE_CURVE", "2,", "0.0,0.0", "1.0,0.0", "%r,1.0" % (1.0 + steps)]
-    cards += move(upper.row(-1), lambda n: -down / radius, 2)
-    cards += move(upper.row(-1), lambda n: drag / radius, 1, 2)
+    cards += push(12, upper.row(-1), -down / radius, 2) + push(12, [], drag / radius, 1, 2)
     return pressed(o, "Hertz, Cattaneo, Mindlin", upper, lower, cards, 1 + steps, mu, side,
-                   pairing, {"radius": radius, "modulus": young / (1 - poisson**2) / 2})
+                   pairing, {"radius": radius, "modulus": young / (1 - poisson**2) / 2, "mu": mu,
+                             "h": h, "down": down, "drag": drag, "steps": steps, "young": young,
+                             "poisson": poisson}, frame)
 
 
 def cylinder(o, h=0.8, ratio=1.0, load=35.0e3, mu=0.0, pairing="MORTAR", side="B"):
@@ -250,21 +272,23 @@ def punch(o, n=10, down=1.0e-3, mu=0.0, pairing="MORTAR", side="A", young=1000.0
                   [1.0 - t for t in heights(1.0 / n, 20.0)[::-1]],
                   lambda x, t: (x, 20.0 * (t - 1.0)), young, poisson)
     cards = hold(11, lower.row(0)) + hold(12, lower.column(0) + upper.column(0), 1, 0)
-    cards += move(upper.row(-1), lambda n: -down, 2)
+    cards += push(13, upper.row(-1), -down, 2)
     return pressed(o, "flat punch", upper, lower, cards, 1, mu, side, pairing, {"half_width": 1.0})
 
 
 def rod(o, upper=3, lower=5, gap=0.01, down=0.03, mu=0.0, pairing="MORTAR", side="AUTO",
         young=1000.0):
     """Rods of length 1 and section 1, PR 0, a gap apart; the end of the upper goes down."""
+    from analytic import press_fit  # needs numpy, which the other scenes do not
+
     def lines(n):
         return [k / n for k in range(n + 1)]
     high = Block(2, lines(upper), lines(4), lambda x, t: (x, gap + t), young, 0.0)
     low = Block(1, lines(lower), lines(4), lambda x, t: (x, t - 1.0), young, 0.0)
     cards = hold(11, low.row(0)) + hold(12, high.column(0), 1, 0)
-    cards += move(high.row(-1), lambda n: -down, 2)
+    cards += push(13, high.row(-1), -down, 2)
     return pressed(o, "Signorini's rod", high, low, cards, 1, mu, side, pairing,
-                   {"force": young * (down - gap) / 2.0})
+                   {"force": press_fit(down - gap, (1.0, 1.0), (young, young))})
 
 
 SCENES = {f.__name__: f for f in (patch, hertz, cylinder, westergaard, punch, rod)}

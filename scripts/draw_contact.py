@@ -13,59 +13,8 @@ import tempfile
 import startup  # before what is no part of Python
 import numpy as np
 
-import analytic
 import make_scenes
-import tables
-
-
-def face_of(meta, folder, side):
-    """The nodes of a face at the end that are listed, from left to right: place x, length that
-    belongs to each, force x and y, pressure."""
-    rows = tables.read_run(folder, "ncforc").select(side=side)
-    rows = rows.rows(rows["time"] == rows["time"].max())
-    known = np.flatnonzero([int(n) in meta["x"] for n in rows["node"]])
-    x = np.array([meta["x"][int(rows["node"][k])] for k in known])
-    order = np.argsort(x)
-    x, known = x[order], known[order]
-    length = np.zeros(len(x))
-    length[:-1] += 0.5 * np.diff(x)
-    length[1:] += 0.5 * np.diff(x)
-    return (x, length) + tuple(rows[name][known] for name in ("fx", "fy", "pressure"))
-
-
-def off_nodes(length, values, exact):
-    """Relative L2 error over the nodes of a face."""
-    return np.sqrt(np.sum(length * (values - exact) ** 2) / np.sum(length * exact**2))
-
-
-def off_lines(x, values, exact):
-    """The same of the lines between the nodes, over the whole face."""
-    at = np.linspace(x[0], x[-1], 20001)
-    error = np.interp(at, x, values) - exact(at)
-    return np.sqrt(np.sum(error**2) / np.sum(exact(at) ** 2))
-
-
-def hertz_of(meta, folder):
-    """The closed form for the measured load, and the tangential force [F L-1]."""
-    last = tables.read_run(folder, "rcforc").select(side=2)
-    exact = analytic.Hertz(meta["radius"], meta["modulus"], abs(last["fy"][-1]))
-    return exact, abs(last["fx"][-1])
-
-
-def hertz_errors(meta, folder):
-    """Relative L2 errors of pressure and shear on the nodes of the lower face."""
-    exact, force = hertz_of(meta, folder)
-    x, length, fx, fy, _ = face_of(meta, folder, 2)
-    p, q = np.abs(fy) / length, np.abs(fx) / length
-    return off_nodes(length, p, exact.pressure(x)), off_nodes(length, q, exact.shear(x, 0.3, force))
-
-
-def wave_errors(meta, folder, side):
-    """Largest error at inner nodes, |x| < .8 a, in parts of the largest pressure; relative L2."""
-    exact = analytic.Westergaard(meta["wave"], meta["full"], meta["mean"])
-    x, _, _, _, p = face_of(meta, folder, side)
-    off = np.abs(p - exact.pressure(x)) / exact.pressure(0.0)
-    return off[x < 0.8 * exact.half_width].max(), off_lines(x, p, exact.pressure)
+from contact_errors import face_of, hertz_errors, hertz_of, wave_errors
 
 
 def solve(folder, scene, **options):
@@ -95,9 +44,10 @@ def measure(folder):
             meta, summary = solve(folder, "hertz", h=h, ratio=ratio, pairing=pairing, side=side)
             if not meta:
                 continue
-            found["hertz"].append((name, h, *hertz_errors(meta, folder), summary["cpu"]))
+            off = hertz_errors(meta, folder)
+            found["hertz"].append((name, h, off["p_y"], off["q_x"], summary["cpu"]))
             if h == 0.005 and name != "MORTAR, matching":
-                x, length, fx, fy, _ = face_of(meta, folder, 2)
+                x, length, fx, fy, _ = face_of(meta["x"], folder, 2)
                 faces.append((name, colour, x, -fy / length, fx / length, hertz_of(meta, folder)))
         for n in (8, 16, 32):
             edges = {"upper": int(ratio * n), "lower": n}

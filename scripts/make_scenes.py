@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Write decks of scenes with exact solutions: make_scenes.py SCENE [name=value]... [-o FILE]
+--mesh: what a deck of input/catalogue includes, the nodes, elements and sets of one.
 
     wall           a bar flies at a rigid wall (the half of the two-bar impact)
     bouncing       a bar falls on a rigid wall under gravity, again and again
@@ -11,8 +12,10 @@
     block          a block thrown obliquely at a rigid plane: its foot slips and sticks
     disc           a disc thrown obliquely at a rigid plane: contact that grows, as of Hertz
     drift          a body at gap 0 (or 1e-15) over a plane, at rest or gliding along it
-    mass_on_rod    a rigid wall with a mass strikes a rod that is held at its other end
+    mass_on_rod    a rigid wall with a mass, or a rigid part, strikes a rod that is held at its
+                   other end
     bowl           a stiff block that swings on its two lower corners in a smooth bowl
+    rigid_bowl     the same block as a rigid part, released from a swing
     belt           a block set down on a belt that runs
     patch, hertz, cylinder, westergaard, punch, rod    static contact: see contact_scenes.py
 
@@ -53,7 +56,7 @@ def grid(o, x0, y0, width, height, nx, ny, part, node, element):
 
 
 def deck(o, title, nodes, elements, parts, control, extra):
-    """The whole text; parts: [(material line)], one part a body."""
+    """The whole text; parts: [(density, E, nu)], one part a body, or (density,) of a rigid one."""
     c = control
     out = [
         "*KEYWORD",
@@ -77,9 +80,11 @@ def deck(o, title, nodes, elements, parts, control, extra):
             "*SECTION_SHELL",
             "%d,13,,4" % k,
             "%r," % c["thickness"],
-            "*MAT_ELASTIC",
-            "%d,%r,%r,%r" % ((k,) + material),
         ]
+        if len(material) == 1:
+            out += ["*MAT_RIGID", "%d,%r" % ((k,) + material), "0.0,0,0", ","]
+        else:
+            out += ["*MAT_ELASTIC", "%d,%r,%r,%r" % ((k,) + material)]
         out += ["*SET_PART_LIST", "%d," % (10 + k), "%d," % k]
     out += extra
     for table in c["tables"]:
@@ -500,25 +505,35 @@ def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
     return text, {"dt": dt, "tend": tend}
 
 
-def mass_on_rod(o, n=100, ratio=1.0, v=1.0, tend=1.9, mu=0.0):
-    """Length 10, c 1000, rho c 1; the mass is `ratio` of the rod's, the end `tend` transits."""
+def mass_on_rod(o, n=100, ratio=1.0, v=1.0, tend=1.9, mu=0.0, part=0):
+    """Length 10, c 1000, rho c 1; the mass is `ratio` of the rod's, the end `tend` transits;
+    part=1: a rigid part, 1 x 1, in the place of a wall that moves."""
     c, length = 1000.0, 10.0
     dt = step(o, length / n, c)
     tend = round(tend * length / c / dt) * dt
     nodes, elements = grid(o, 0.0, 0.0, length, 1.0, n, 1, 1, 1, 1)
     mass = ratio * length / c
-    at, ahead = turned(o, length, 0.0), turned(o, length - 1.0, 0.0)
+    materials, tables = [(1.0e-3, 1000.0, 0.0)], ["GLSTAT", "MATSUM"]
+    held = node_set(9, [i for i, x, _ in nodes if x == 0.0]) + ["*BOUNDARY_SPC_SET", "9,,1,1"]
+    if part:
+        more, cell = grid(o, length, 0.0, 1.0, 1.0, 1, 1, 2, 1 + len(nodes), 1 + len(elements))
+        nodes, elements, materials = nodes + more, elements + cell, materials + [(mass,)]
+        striker = ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,,,%r" % mu]
+        striker += ["*INITIAL_VELOCITY_RIGID_BODY", "2,%r,%r" % turned(o, -v, 0.0)]
+        tables += ["RCFORC=%r" % dt, "RBDOUT=%r" % dt]
+    else:
+        at, ahead = turned(o, length, 0.0), turned(o, length - 1.0, 0.0)
+        striker = ["*RIGIDWALL_PLANAR_MOVING", "0,", "%r,%r,,%r,%r,,%r" % (at + ahead + (mu,))]
+        striker += ["%r,%r" % (mass, v)]
+        tables += ["RWFORC=%r" % dt]
     text = deck(
         o,
         "a mass on a rod",
         nodes,
         elements,
-        [(1.0e-3, 1000.0, 0.0)],
-        controls(tend, dt, o, ["GLSTAT", "MATSUM", "RWFORC=%r" % dt]),
-        node_set(9, [i for i, x, _ in nodes if x == 0.0])
-        + ["*BOUNDARY_SPC_SET", "9,,1,1"]
-        + ["*RIGIDWALL_PLANAR_MOVING", "0,", "%r,%r,,%r,%r,,%r" % (at + ahead + (mu,))]
-        + ["%r,%r" % (mass, v)],
+        materials,
+        controls(tend, dt, o, tables),
+        held + striker,
     )
     return text, {"dt": dt, "tend": tend, "mass": mass, "impedance": 1.0, "v": v}
 
@@ -551,6 +566,32 @@ def bowl(o, n=2, steps=5000, periods=2.5, swing=1.0e-3, young=1.0e4, mu=0.0, fra
     )
     meta = {"nodes": nodes, "dt": dt, "tend": steps * dt, "exact": exact}
     return text, dict(meta, ramp=ramp * exact.period())
+
+
+def rigid_bowl(o, steps=5000, periods=2.5, sine=0.28, mu=0.0, frame="MID"):
+    """A rigid block of one element on two corners in a bowl of radius 1, released at rest from
+    an angle with this sine; .28: corners on the circle in whole thousandths."""
+    from analytic import GlidingBlock  # needs numpy, which the other scenes do not
+
+    exact = GlidingBlock(radius=1.0, half_width=0.6, height=0.5)
+    swing = math.asin(sine)
+    period = exact.period(False, swing)
+    dt = periods * period / steps
+    nodes, elements = grid(o, -0.6, -exact.depth, 1.2, exact.height, 1, 1, 1, 1, 1)
+    c, s = math.cos(swing), math.sin(swing)
+    nodes = [(i, round(c * x - s * y, 12), round(s * x + c * y, 12)) for i, x, y in nodes]
+    extra = curve(1, (0.0, exact.gravity), (1.0e3, exact.gravity)) + gravity(o, 1, 0.0, -1.0)
+    extra += geometric(o, "CYLINDER_INTERIOR", 0.0, 0.0, mu, exact.radius)
+    text = deck(
+        o,
+        "a rigid block in a bowl",
+        nodes,
+        elements,
+        [(1.0e-3,)],
+        controls(steps * dt, dt, o, ["GLSTAT", "RBDOUT", "RWFORC"]),
+        extra + ["*BIPACT_CONTACT", "AUTO,", ",%s" % frame],
+    )
+    return text, {"dt": dt, "tend": steps * dt, "exact": exact, "swing": swing, "period": period}
 
 
 def belt(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7, ends=None):
@@ -589,19 +630,42 @@ SCENES = {
         drift,
         mass_on_rod,
         bowl,
+        rigid_bowl,
         belt,
     )
 }
 SCENES.update(contact_scenes.SCENES)
 
 
-def write(path, scene, **options):
-    """Writes the deck of a scene; returns its data."""
+def write(path, scene, mesh=False, **options):
+    """Writes the deck of a scene, or its mesh alone; returns its data."""
     common = dict(COMMON, **{k: v for k, v in options.items() if k in COMMON})
     text, meta = SCENES[scene](common, **{k: v for k, v in options.items() if k not in COMMON})
     with open(path, "w", encoding="ascii") as out:
+        if mesh:
+            said = "".join(" %s=%s" % item for item in options.items())
+            text = "$ Mesh, written by make_scenes.py %s%s --mesh\n" % (scene, said) + mesh_of(text)
         out.write(text)
     return meta
+
+
+MESH = ("*NODE", "*ELEMENT_SHELL", "*SET_NODE_LIST", "*SET_SEGMENT")
+
+
+def mesh_of(text):
+    """The cards of a deck that describe its mesh, in columns; coordinates to nine digits."""
+    out, name = ["*KEYWORD"], ""
+    for line in text.split("\n"):
+        if line.startswith("*"):
+            name = line
+            out += [line] if line in MESH else []
+        elif name == "*NODE":
+            number, x, y = line.split(",")
+            out += ["%8s%16.9g%16.9g" % (number, float(x), float(y))]
+        elif name in MESH:
+            width = "%8s" if name == "*ELEMENT_SHELL" else "%10s"
+            out += ["".join(width % field for field in line.rstrip(",").split(","))]
+    return "\n".join(out + ["*END", ""])
 
 
 def value_of(text):
@@ -621,12 +685,13 @@ def main():
     parser.add_argument("scene", choices=sorted(SCENES))
     parser.add_argument("options", nargs="*", metavar="name=value")
     parser.add_argument("-o", metavar="FILE", default="scene.k", help="deck (scene.k)")
+    parser.add_argument("--mesh", action="store_true", help="only nodes, elements and their sets")
     a = parser.parse_args()
     options = dict(x.split("=", 1) for x in a.options)
     known = set(COMMON) | set(inspect.signature(SCENES[a.scene]).parameters) - {"o"}
     for name in sorted(set(options) - known):
         parser.error("%s has no %s; it has: %s" % (a.scene, name, " ".join(sorted(known))))
-    meta = write(a.o, a.scene, **{k: value_of(v) for k, v in options.items()})
+    meta = write(a.o, a.scene, a.mesh, **{k: value_of(v) for k, v in options.items()})
     print("%s: dt %r, end %r" % (a.o, meta["dt"], meta["tend"]))
 
 

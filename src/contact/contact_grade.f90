@@ -226,31 +226,36 @@ contains
     end if
   end function distance_at
 
-  !> One of two twins is exact, whatever edges each was compared with: of edges that differ by
-  !> equal_size, or that grow along the face, both nodes may be the coarser one. Between faces
-  !> that multipliers keep apart both may have an allowance.
+  !> One of two smooth twins is exact, whatever edges each was compared with: of edges that
+  !> differ by equal_size, or that grow along the face, both nodes may be the coarser one. A
+  !> corner on a flat is meant so.
   pure subroutine settle_pair(side_a, side_b, finer, x, u, a, b)
     type(surface_t), intent(in) :: side_a, side_b
     integer, intent(in) :: finer
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(place_t), intent(inout) :: a, b
     real(wp) :: turn_a, turn_b
-    logical :: a_stays, is_exact
+    logical :: a_stays, is_exact, by_deck
     turn_a = side_a%turn(side_a%index(a%node))
     turn_b = side_b%turn(side_b%index(b%node))
     a_stays = .true.
-    if (abs(turn_a - turn_b) > sharper) then
+    by_deck = a%side /= b%side .and. any(finer == [1, 2]) .and. max(turn_a, turn_b) <= corner
+    if (by_deck) then
+      a_stays = a%side == finer
+    else if (abs(turn_a - turn_b) > sharper) then
       a_stays = turn_a > turn_b
     else if (abs(a%own_size - b%own_size) > equal_size*max(a%own_size, b%own_size)) then
       a_stays = a%own_size < b%own_size
     else if (a%side == b%side) then
       a_stays = stays_in_one_surface(side_a, a, b)
     end if
-    is_exact = a%is_exact .or. b%is_exact .or. finer /= finer_none
+    is_exact = a%is_exact .or. b%is_exact .or. &
+        (finer == finer_auto .and. max(turn_a, turn_b) <= corner)
     a%is_exact = a_stays .and. is_exact
     b%is_exact = .not. a_stays .and. is_exact
     a%is_twin = .not. a_stays .and. is_exact
     b%is_twin = a_stays .and. is_exact
+    if (by_deck) return               ! its normal is that of the side that is the obstacle
     if (a_stays) call take_mean(side_b, x, u, b%normal, a)
     if (.not. a_stays) call take_mean(side_a, x, u, a%normal, b)
   end subroutine settle_pair

@@ -165,8 +165,8 @@ contains
       call find_side(this, model, s, u, free, view)
       if (s == 1) n_first = this%places
     end do
-    if (this%places > 1) call settle_twins(this%side, this%is_self, this%finer, &
-        model%x, u, this%place, n_first, this%places)
+    if (this%places > 1) call settle_twins(this%side, this%is_self, this%finer, model%x, u, &
+        this%place, n_first, this%places)
     if (allocated(this%ramp)) call raise_places(this%ramp, this%place(:this%places))
     is_same = this%repeated == this%places .and. this%places == before
   end subroutine node_find_places
@@ -340,8 +340,8 @@ contains
       call find_end(this, model, s, u1, .true., some_deep)
       if (s == 1) n_first = this%places
     end do
-    if (this%places > 1) call settle_twins(this%side, this%is_self, this%finer, &
-        model%x, u1, this%place, n_first, this%places)
+    if (this%places > 1) call settle_twins(this%side, this%is_self, this%finer, model%x, &
+        u1, this%place, n_first, this%places)
     if (allocated(this%ramp)) call raise_places(this%ramp, this%place(:this%places))
     do j = 1, this%places
       call judge_late(this%number, this%side(facing_side(this, this%place(j)%side)), model%x, &

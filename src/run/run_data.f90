@@ -72,6 +72,8 @@ module run_data
     real(wp), allocatable :: lever(:, :)         !< (2, followers) of the step
     real(wp), allocatable :: turn(:)             !< (parts) of the step, that of the levers
     logical :: is_middle = .false.               !< levers of the middle of the step
+    logical :: keeps_levers = .false.            !< that no turn of this step repeats
+    real(wp) :: change = 0.0_wp                  !< what levers of the last pass erred by
     integer, allocatable :: row(:)               !< (n) of a node among the followers, 0 = none
     integer, allocatable :: solver_node(:)       !< nodes that the solver keeps to the end
     integer, allocatable :: slot(:)              !< (n) of a node among them, 0 = none

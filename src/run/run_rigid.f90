@@ -53,6 +53,7 @@ contains
       if (allocated(r%lever_before)) call find_levers(rigid, rotations(rigid, state%u) - &
           rotations(rigid, state%du), rotations(rigid, state%du), r%lever_before)
       r%turn = zero
+      r%keeps_levers = .false.
       if (r%is_middle) r%turn = run%scheme%h*rotations(rigid, state%v)
       call find_levers(rigid, rotations(rigid, state%u), r%turn, r%lever)
       call move_followers(rigid, r%lever, state%v)
@@ -196,17 +197,17 @@ contains
   subroutine renew_levers(run, again)
     type(run_t), intent(inout) :: run
     logical, intent(out) :: again
-    real(wp) :: turn(size(run%rigid%turn)), change
+    real(wp) :: turn(size(run%rigid%turn))
     again = .false.
     associate (rigid => run%model%rigid, r => run%rigid)
       if (.not. r%is_middle) return
       turn = rotations(rigid, run%x)
       ! Half the change of turn times the turn is what a lever errs by.
-      change = maxval(abs(turn - r%turn)*max(abs(turn), abs(r%turn)))
+      r%change = maxval(abs(turn - r%turn)*max(abs(turn), abs(r%turn)))
       r%turn = turn
       call find_levers(rigid, rotations(rigid, run%state%u), turn, r%lever)
       call move_followers(rigid, r%lever, run%state%v)
-      again = change > epsilon(one) .and. run%plan%contact
+      again = r%change > epsilon(one) .and. run%plan%contact
       if (again) again = run%contact%rows%n > 0
       if (.not. again) call move_followers(rigid, r%lever, run%x)
     end associate
@@ -242,7 +243,7 @@ contains
   subroutine set_true_motion(run)
     type(run_t), intent(inout) :: run
     real(wp) :: lever(2, size(run%model%rigid%node)), turn(size(run%rigid%turn))
-    if (run%rigid%is_middle) return
+    if (run%rigid%is_middle .and. .not. run%rigid%keeps_levers) return
     associate (rigid => run%model%rigid, s => run%state)
       turn = rotations(rigid, s%du)
       call find_levers(rigid, rotations(rigid, s%u) - turn, turn, lever)

@@ -82,7 +82,8 @@ contains
       case (growth)
         text = 'the energy rose by '//to_text(run%ledger%largest_growth)// &
             ' of the largest term; first seen at '//since//': take a smaller step'
-        if (run%scheme%weight_before > zero) text = text//', or another scheme'
+        if (run%scheme%weight_before > zero .and. .not. run%model%controls%is_static) &
+            text = text//', or another scheme'
       case (overlap)
         text = 'bodies overlap by up to '//to_text(tally%overlap_share)// &
             ' of the shorter edge, deepest at node '// &

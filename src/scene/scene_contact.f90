@@ -43,11 +43,11 @@ contains
     call read_pairs(deck, model, maps, pair)
     do k = 1, size(record)
       call find_sides(deck, model, maps, pair(k), model%contact(k))
-      if (model%contact(k)%pairing == 'MORTAR') &
-          call check_mortar(deck, pair(k), model%contact(k))
     end do
     if (deck%problems%count == 0) call share_parts(deck, model)
     do k = 1, size(record)
+      if (model%contact(k)%pairing == 'MORTAR') &
+          call check_mortar(deck, pair(k), model%contact(k))
       if (pair(k) > 0) call read_overlap(deck, model, pair(k), model%contact(k))
     end do
     call warn_thickness(deck, model)
@@ -231,8 +231,8 @@ contains
       call deck%complain(pair, 'SIDE', 'MORTAR has multipliers on one side: expected A, B '// &
           'or AUTO', instead//' where both sides are to have exact nodes')
     else if (card%is_self) then
-      call deck%complain(pair, 'PAIRING', 'MORTAR needs two surfaces; this contact is of one', &
-          instead)
+      call deck%complain(pair, 'PAIRING', 'MORTAR needs two surfaces; this contact is of '// &
+          'one, or parts stand on both sides', instead)
     else if (any(card%kind == side_node_set)) then
       call deck%complain(pair, 'PAIRING', 'MORTAR needs edges on both sides; '// &
           surface(findloc(card%kind, side_node_set, 1))//' is a set of nodes', &

@@ -566,6 +566,7 @@ BLOCK_FAULTS = [
     ("mortar on both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,MORTAR\n*END"),
     ("mortar of a node set", "*END", "*BIPACT_PAIR\n1,,,NODESET,,MORTAR\n*SET_NODE_LIST\n12,\n1,2\n*END"),
     ("mortar of one surface", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE_ID\n7,\n,\n*BIPACT_PAIR\n7,,,,,MORTAR\n*END"),
+    ("mortar of parts on both sides", "*END", "*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE_ID\n7,\n1,1\n*BIPACT_PAIR\n7,,PART,PART,,MORTAR\n*END"),
     ("pairing that is not available", "*END", "*BIPACT_PAIR\n         1,,,,,MORTARSTD\n*END"),
     ("pair of no segment set", "*END", "*BIPACT_PAIR\n         1         A    SEGSET\n*END"),
     (

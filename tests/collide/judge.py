@@ -136,8 +136,27 @@ def check_balances():
     given = none + [[0, 0], [0, 0], [0.1, 0]]
     near("momentum with an impulse", judge.momentum(matsum, given), 0.0)
     forces = dict(fy=[0] * 4, ix=[0] * 4, iy=[0] * 4, side=[1, 2, 1, 2])
+    turned = np.array([box(0, 0), mesh.turned(box(0, 0), 0.7) + 3.0])
+    near("a rigid motion keeps the shape", judge.shape(turned), 0.0)
+    turned[1, 2] += mesh.turned(np.array([0.1, 0.1]), 0.7)
+    near("a corner pulled along the diagonal", judge.shape(turned), 0.1 * 2**0.5 / turned.max())
     near("forces", judge.balance(make_table(fx=[0, 0, 2, -1.5], **forces)), 0.25)
     near("opposite forces", judge.balance(make_table(fx=[1, -1, 2, -2], **forces)), 0.0)
+
+
+def check_rigid():
+    """A body that turns about a point: its centre of mass is not the mean of its nodes."""
+    wedge = np.array([(0.0, 0.0), (3.0, 0.0), (1.5, 0.0), (0.0, 3.0)])[[0, 2, 1, 3]]
+    near("centroid", np.abs(mesh.centroid(wedge) - 1.0).max(), 0.0)
+    velocity = 2.0 * np.column_stack([-wedge[:, 1], wedge[:, 0]]) + [0.5, 0.25]
+    v, omega = scenes.velocities_of({"xy": wedge, "loop": [0, 1, 2, 3], "velocity": velocity})
+    near("rate of rotation", omega, 2.0)
+    near("velocity of the centre", np.hypot(*(v - [0.5 - 2.0, 0.25 + 2.0])), 0.0)
+    for number in range(40):
+        plain, scene = scenes.draw(3, number), scenes.draw(3, number, rigid=True)
+        check("rigid parts in scene %d" % number, any(b["rigid"] for b in scene["bodies"]))
+        for one, two in zip(plain["bodies"], scene["bodies"]):
+            check("the same bodies in scene %d" % number, np.array_equal(one["xy"], two["xy"]))
 
 
 def check_scenes():
@@ -165,6 +184,7 @@ check_inside()
 check_through()
 check_motion()
 check_balances()
+check_rigid()
 check_scenes()
 print("%d passed, %d failed" % tuple(counts))
 sys.exit(1 if counts[1] else 0)

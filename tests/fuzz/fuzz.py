@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Mutation fuzzer: small decks with random damage. Standard library only.
 
-    fuzz.py [--count N] [--seed S] [--jobs J] [--keep DIR]
+    fuzz.py [--count N] [--seed S] [--jobs J] [--keep DIR] [--decks WORD ...]
 
-Every mutant is made from (seed, its number) alone, so a failure can be made again. What must
+Every mutant is made from (seed, its number, the decks) alone, so a failure can be made again. What must
 hold: no crash and no run-time error of Fortran, exit code 0 to 3, no file after a deck error
 (exit 2), no NaN or infinity in a table, an end within five seconds (a mutant that asks for very
 many steps is only read and checked then).
@@ -124,8 +124,8 @@ BYTES = b"\t\r\n $*,&+-.0123456789eEdDnNaA\x00\x7f\xe9\xff\"'"
 KEYWORDS = []
 
 
-def corpus():
-    """{name: bytes} of the decks to damage, all small and short."""
+def corpus(words=()):
+    """{name: bytes} of the decks to damage, all small and short; those that hold a word."""
     decks = {}
     for folder in ("tests/bad_decks", "tests/fuzz/decks", "input/cards", "input/lessons"):
         path = os.path.join(ROOT, folder)
@@ -133,7 +133,8 @@ def corpus():
             if name.endswith(".k"):
                 with open(os.path.join(path, name), "rb") as file:
                     decks[folder + "/" + name] = file.read()
-    return decks
+    words = [word.encode() for word in words]
+    return {n: d for n, d in decks.items() if not words or any(w in d for w in words)}
 
 
 def mutate_bytes(rng, text):
@@ -459,8 +460,8 @@ def judge(program, folder):
 def work(task):
     """Runs mutants first, first + step, ... in a folder of their own; returns (codes,
     failures)."""
-    first, step, count, seed, program, keep = task
-    decks, codes, failures = corpus(), {}, []
+    first, step, count, seed, program, keep, words = task
+    decks, codes, failures = corpus(words), {}, []
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "other.k"), "wb") as file:
             file.write(b"*NODE\n    9001             0.0             0.0\n*END\n")
@@ -489,6 +490,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--keep", metavar="DIR", help="keep the decks that fail")
+    parser.add_argument("--decks", nargs="+", default=(), metavar="WORD", help="those with a word")
     a = parser.parse_args()
     program = os.path.abspath(os.environ.get("BIPACT", os.path.join(ROOT, "bin", "bipact")))
     listed = subprocess.run([program, "--keywords"], stdout=subprocess.PIPE).stdout
@@ -498,9 +500,8 @@ def main():
         os.makedirs(a.keep, exist_ok=True)
     start = time.time()
     with multiprocessing.Pool(a.jobs) as pool:
-        parts = pool.map(
-            work, [(k, a.jobs, a.count, a.seed, program, a.keep) for k in range(a.jobs)]
-        )
+        rest = (a.jobs, a.count, a.seed, program, a.keep, a.decks)
+        parts = pool.map(work, [(k,) + rest for k in range(a.jobs)])
     codes, failures = {}, []
     for part_codes, part_failures in parts:
         failures += part_failures

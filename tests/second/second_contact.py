@@ -447,6 +447,13 @@ class Pair:
         turn = self.boundary.turn
         difference = turn[one.node] - turn[two.node]
         stays, goes = one, two
+        smooth = max(turn[one.node], turn[two.node]) <= CORNER
+        rule = self.finders[0].side_rule
+        if smooth and rule in ("A", "B") and not self.finders[0].same:
+            # The deck says who meets whom: its normal is the obstacle's.
+            stays, goes = (one, two) if rule == "A" else (two, one)
+            stays.exact, goes.exact = stays.exact or goes.exact, False
+            return
         if abs(difference) > DEGREE:
             if difference < 0:
                 stays, goes = two, one
@@ -461,7 +468,7 @@ class Pair:
         n = stays.normal - goes.normal
         stays.normal = n / np.hypot(*n)
         stays.gap = stays.normal @ stays.relative(shape.x)
-        stays.exact = stays.exact or goes.exact
+        stays.exact = stays.exact or goes.exact or smooth and rule == "AUTO"
         goes.exact = False
 
 

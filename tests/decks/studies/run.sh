@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # The study of error against time runs from end to end in its short form: every run done, no growth
 # of energy with THETA, exact where the method is (dispersion-tuned mass at Courant number 1); its
-# figures draw fronts, and names that do not cover each other.
+# figures draw fronts, and names that do not cover each other. Static pairings: NODE where nodes
+# meet, MORTAR where they do not.
 set -eu
 "$PYTHON" "$ROOT/bench/report.py" --quick --fresh --jobs 1 --store "$TMP/kept" --out "$TMP/report"
 [ -s "$TMP/report/index.md" ] && [ -s "$TMP/report/choose.md" ] && [ -s "$TMP/report/aligned.png" ]
-PYTHONPATH=$ROOT/bench "$PYTHON" - "$TMP/report/runs.csv" <<'END'
+[ -s "$TMP/report/static.md" ] && [ -s "$TMP/report/static.png" ]
+PYTHONPATH=$ROOT/bench "$PYTHON" - "$TMP/report/runs.csv" "$TMP/report/static.csv" <<'END'
 import csv
 import os
 import subprocess
@@ -16,6 +18,8 @@ from report_figures import front, spread
 
 with open(sys.argv[1]) as file:
     rows = list(csv.DictReader(file))
+with open(sys.argv[2]) as file:
+    static = list(csv.DictReader(file))
 listed = subprocess.run([os.environ["BIPACT"], "--keywords"], capture_output=True, text=True).stdout
 row = next(x for x in listed.splitlines() if x.startswith("| SCHEME |"))
 schemes = set(row.split(" | ")[5].split(", "))
@@ -43,6 +47,13 @@ def is_front(runs):
     return found == sorted({(a["cpu"], a["err"]) for a in kept})
 
 
+def inner(pairing, mesh):
+    """The inner error of the pressure of Westergaard's wave."""
+    own = [r for r in static if (r["pairing"], r["mesh"]) == (pairing, mesh) and r["inner"]]
+    return float(own[0]["inner"])
+
+
+unequal = "2:3, upper finer"
 bars = [
     dict(r, cpu=float(r["cpu"]), err=float(r["err"]))
     for r in rows
@@ -57,6 +68,11 @@ tests = [
     ("THETA runs that failed", not [r for r in theta if r["failed"]]),
     ("THETA runs whose energy grew", not [r for r in theta if r["growth"] == "True"]),
     ("every scheme of the program", {r["method"].split()[0] for r in rows} == schemes),
+    ("static runs that failed", not [r for r in static if r["failed"]]),
+    ("static runs: two pairings, two meshes, two scenes", len(static) == 8),
+    # 8 edges: a hundredth where nodes meet, or with MORTAR (4e-3); NODE stays above 5e-2.
+    ("NODE on matching faces", inner("NODE", "matching") < 1e-2),
+    ("MORTAR on faces 2:3", inner("MORTAR", unequal) < 1e-2 < 5e-2 < inner("NODE", unequal)),
     ("exact runs", len(exact) == 2 and all(float(r["err"]) < 1e-9 for r in exact)),
 ]
 for words, ok in tests:
