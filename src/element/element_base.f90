@@ -14,6 +14,7 @@ module element_base
     integer :: dim = 2
     integer :: nodes = 0
     integer :: vtk = 0                   !< its number in VTK
+    integer, allocatable :: vtk_order(:) !< its nodes in the order of VTK, where that is another
     !> (nodes of a face, faces) outward: in the plane edges with the element on their left, in
     !> space seen from outside counter-clockwise; 0 = this face has fewer nodes
     integer, allocatable :: face(:, :)
@@ -22,6 +23,7 @@ module element_base
     procedure(rule_i), deferred :: rule
     procedure :: mass_rule => element_mass_rule
     procedure :: gradients => element_gradients
+    procedure :: strains_at => element_strains_at
     procedure :: stiffness => element_stiffness
     procedure :: mass => element_mass
     procedure :: sizes => element_sizes
@@ -146,6 +148,16 @@ contains
     end do
   end subroutine strain_matrix
 
+  !> B at a parametric point, and the determinant of the Jacobian there.
+  pure subroutine element_strains_at(this, x, xi, b, det_j)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :), xi(:)
+    real(wp), intent(out) :: b(:, :), det_j
+    real(wp) :: n(size(x, 2)), dn(size(x, 2), size(x, 1))
+    call this%gradients(x, xi, n, dn, det_j)
+    call strain_matrix(dn, b)
+  end subroutine element_strains_at
+
   !> Stiffness (dim nodes, dim nodes) [F/L], sum over the points of B' D B (Zienkiewicz & Taylor
   !> 2000, vol. 1, ch. 4): from coordinates x (dim, nodes) [L], moduli d (strains, strains)
   !> [F/L2], thickness [L] (1 in space).
@@ -155,14 +167,12 @@ contains
     real(wp), intent(in) :: d(:, :)
     real(wp), intent(in) :: thickness
     real(wp), intent(out) :: ke(:, :)
-    real(wp) :: xi(3, most_points), w(most_points), n(size(x, 2)), dn(size(x, 2), size(x, 1))
-    real(wp) :: b(size(d, 1), size(x)), det_j
+    real(wp) :: xi(3, most_points), w(most_points), b(size(d, 1), size(x)), det_j
     integer :: k, points
     call this%rule(points, xi, w)
     ke = zero
     do k = 1, points
-      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
-      call strain_matrix(dn, b)
+      call this%strains_at(x, xi(:size(x, 1), k), b, det_j)
       call add_product(size(b, 1), size(b, 2), thickness*det_j*w(k), d, b, ke)
     end do
     ke = half*(ke + transpose(ke))
@@ -253,16 +263,14 @@ contains
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(out) :: b(:, :)
-    real(wp) :: xi(3, most_points), w(most_points), n(size(x, 2)), dn(size(x, 2), size(x, 1))
-    real(wp) :: det_j, mean(size(x, 2), size(x, 1))
+    real(wp) :: xi(3, most_points), w(most_points), at_point(size(b, 1), size(b, 2)), det_j
     integer :: k, points
     call this%rule(points, xi, w)
-    mean = zero
+    b = zero
     do k = 1, points
-      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
-      mean = mean + w(k)/sum(w(:points))*dn
+      call this%strains_at(x, xi(:size(x, 1), k), at_point, det_j)
+      b = b + w(k)/sum(w(:points))*at_point
     end do
-    call strain_matrix(mean, b)
   end subroutine element_mean_strain_matrix
 
   !> Mean strain of displacements u (dim, nodes) [L]; a translation of the element is taken off

@@ -3,11 +3,12 @@
 program test_element
   use base_kinds, only: wp, zero, one, half
   use check, only: test_start, test_end, check_true, check_close, seed_random
-  use element_base, only: element_t
+  use element_base, only: element_t, strains
+  use element_hex8, only: corner
   use element_limit, only: stable_step
   use element_registry, only: make_element, element_names
   use linalg_dense, only: largest_by_lapack
-  use material_base, only: material_t, plane_stress, plane_strain
+  use material_base, only: material_t, plane_stress, plane_strain, in_space
   use material_registry, only: make_material
   implicit none
   real(wp), parameter :: thickness = 0.7_wp, density = 1.3_wp
@@ -22,10 +23,12 @@ program test_element
   call element_names(names)
   do k = 1, size(names)
     call make_element(names(k), element)
-    call test_stiffness(plane_stress)
-    call test_stiffness(plane_strain)
+    if (element%dim == 2) call test_stiffness(plane_stress)
+    if (element%dim == 2) call test_stiffness(plane_strain)
+    if (element%dim == 3) call test_stiffness(in_space)
     call test_mass()
     call test_shape()
+    call test_faces()
   end do
   call seed_random(7)
   call test_square_limits()
@@ -37,82 +40,196 @@ contains
 
   !> A convex shape without symmetry, counter-clockwise.
   function corners() result(x)
-    real(wp) :: x(2, element%nodes)
+    real(wp) :: x(element%dim, element%nodes), shift(element%dim)
     real(wp), parameter :: quad(2, 4) = reshape([0.1_wp, -0.2_wp, 2.0_wp, 0.3_wp, 1.7_wp, &
         1.9_wp, -0.3_wp, 1.2_wp], [2, 4])
-    x = quad(:, 1:element%nodes)
+    integer :: i
+    if (element%dim == 2) then
+      x = quad(:, 1:element%nodes)
+      return
+    end if
+    call seed_random(11)
+    x = places()
+    do i = 1, size(x, 2)
+      call random_number(shift)
+      x(:, i) = x(:, i) + 0.2_wp*(shift - half)
+    end do
   end function corners
 
+  !> The nodes of the regular shape in space.
+  function places() result(x)
+    real(wp) :: x(3, element%nodes)
+    select case (element%name)
+    case ('TET4')
+      x = reshape([zero, zero, zero, one, zero, zero, zero, one, zero, zero, zero, one], [3, 4])
+    case ('WEDGE6')
+      x(:, 1:4) = corner(:, 1:4)
+      x(:, 5) = [zero, -one, one]
+      x(:, 6) = [zero, one, one]
+    case ('PYRAMID5')
+      x(:, 1:4) = corner(:, 1:4)
+      x(:, 5) = [zero, zero, one]
+    case default
+      x = corner
+    end select
+  end function places
+
+  !> Area or volume, by the rule of the mass.
   real(wp) function area(x)
     real(wp), intent(in) :: x(:, :)
-    integer :: k, next
-    area = zero
-    do k = 1, size(x, 2)
-      next = 1 + mod(k, size(x, 2))
-      area = area + half*(x(1, k)*x(2, next) - x(1, next)*x(2, k))
-    end do
+    area = sum(element%lumped_mass(x, one, one))
   end function area
 
   !> Rigid motions cost no force; a constant strain costs the exact energy (patch test).
   subroutine test_stiffness(plane)
     integer, intent(in) :: plane
-    real(wp) :: x(2, element%nodes), ke(2*element%nodes, 2*element%nodes), u(2*element%nodes)
-    real(wp) :: d(3, 3), strain(3), energy
+    real(wp), dimension(element%dim*element%nodes) :: u
+    real(wp) :: x(element%dim, element%nodes), ke(size(u), size(u))
+    real(wp) :: d(strains(element%dim), strains(element%dim)), strain(size(d, 1)), energy
+    real(wp) :: gradient(element%dim, element%dim), volume
     integer :: k
     x = corners()
     d = material%moduli(plane)
-    call element%stiffness(x, d, thickness, ke)
+    volume = area(x)
+    if (element%dim == 2) volume = volume*thickness
+    call element%stiffness(x, d, merge(thickness, one, element%dim == 2), ke)
     call check_true(.not. any(abs(ke - transpose(ke)) > zero), element%name//' symmetry')
-    do k = 1, 3
+    do k = 1, 3*(element%dim - 1)
       u = pack_motion(x, k)
       call check_close(maxval(abs(matmul(ke, u))), zero, 1.0e-12_wp, element%name// &
           ' rigid motion', maxval(abs(ke)))
     end do
-    strain = [1.0e-3_wp, -4.0e-4_wp, 7.0e-4_wp]
-    u = reshape([(strain(1)*x(1, k) + half*strain(3)*x(2, k), &
-        half*strain(3)*x(1, k) + strain(2)*x(2, k), k=1, size(x, 2))], [size(u)])
-    energy = area(x)*thickness*dot_product(strain, matmul(d, strain))
+    call random_number(gradient)
+    u = reshape(matmul(gradient, x), [size(u)])
+    strain(:element%dim) = [(gradient(k, k), k=1, element%dim)]
+    if (element%dim == 2) strain(3) = gradient(1, 2) + gradient(2, 1)
+    if (element%dim == 3) strain(4:6) = [gradient(1, 2) + gradient(2, 1), &
+        gradient(2, 3) + gradient(3, 2), gradient(3, 1) + gradient(1, 3)]
+    energy = volume*dot_product(strain, matmul(d, strain))
     call check_close(dot_product(u, matmul(ke, u)), energy, 1.0e-13_wp, element%name// &
         ' energy of constant strain', energy)
+    call check_close(maxval(abs(element%mean_strain(x, reshape(u, shape(x))) - strain)), zero, &
+        1.0e-13_wp, element%name//' mean strain', maxval(abs(strain)))
   end subroutine test_stiffness
 
-  !> Two translations and a small rotation.
+  !> Translations and small rotations about the axes, in the plane about z.
   function pack_motion(x, k) result(u)
     real(wp), intent(in) :: x(:, :)
     integer, intent(in) :: k
-    real(wp) :: u(2*size(x, 2))
-    integer :: i
-    u = zero
-    if (k < 3) u(k::2) = one
-    if (k == 3) u = reshape([(-x(2, i), x(1, i), i=1, size(x, 2))], [size(u)])
+    real(wp) :: u(size(x)), motion(size(x, 1), size(x, 2))
+    integer :: m, a, b
+    m = size(x, 1)
+    motion = zero
+    if (k <= m) then
+      motion(k, :) = one
+    else
+      a = merge(1, 1 + mod(k - m, 3), m == 2)
+      b = merge(2, 1 + mod(k - m + 1, 3), m == 2)
+      motion(a, :) = -x(b, :)
+      motion(b, :) = x(a, :)
+    end if
+    u = reshape(motion, [size(u)])
   end function pack_motion
 
-  !> Whatever the integration points, the total mass is exact (the Jacobian is linear).
+  !> Faces close the element and look outward.
+  subroutine test_faces()
+    real(wp) :: x(3, element%nodes), a(3), total(3), centre(3)
+    integer :: f, k, m
+    x = zero
+    x(:element%dim, :) = corners()
+    total = zero
+    do f = 1, size(element%face, 2)
+      m = element%face_size(f)
+      associate (node => element%face(:m, f))
+        if (element%dim == 2) a = [x(2, node(2)) - x(2, node(1)), x(1, node(1)) - x(1, node(2)), &
+            zero]
+        if (element%dim == 3) a = half*cross(x(:, node(3)) - x(:, node(1)), &
+            x(:, node(m)) - x(:, node(2)))
+        if (m == 3) a = half*cross(x(:, node(2)) - x(:, node(1)), x(:, node(3)) - x(:, node(1)))
+        centre = sum(x(:, node), dim=2)/m - sum(x, dim=2)/element%nodes
+      end associate
+      total = total + a
+      call check_true(dot_product(a, centre) > zero, element%name//': a face looks outward')
+    end do
+    call check_close(maxval(abs(total)), zero, 1.0e-14_wp, element%name//': faces close', one)
+    call check_true(all([(any(element%face == k), k=1, element%nodes)]), &
+        element%name//': every node is in a face')
+  end subroutine test_faces
+
+  pure function cross(a, b) result(c)
+    real(wp), intent(in) :: a(3), b(3)
+    real(wp) :: c(3)
+    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
+
+  !> Whatever the integration points, the total mass is exact where the Jacobian is linear in
+  !> each direction: in the plane. In space those of the Gauss points, against the volume of
+  !> tetrahedra around the centre of each face.
   subroutine test_mass()
-    real(wp) :: x(2, element%nodes), me(element%nodes, element%nodes), total
+    real(wp) :: x(element%dim, element%nodes), me(element%nodes, element%nodes), total
+    real(wp) :: a(element%dim)
     real(wp), parameter :: points(3) = [one/sqrt(3.0_wp), one, zero]
     integer :: k
     x = corners()
-    total = density*thickness*area(x)
-    do k = 1, size(points)
-      call element%mass(x, density, thickness, [points(k), points(k)], me)
+    total = density*thickness*measure(x)
+    do k = 1, merge(3, 1, element%dim == 2)
+      a = points(k)
+      call element%mass(x, density, thickness, a, me)
       call check_close(sum(me), total, 1.0e-14_wp, element%name//' total mass', total)
       call check_close(maxval(abs(me - transpose(me))), zero, 1.0e-15_wp, element%name// &
           ' symmetric mass', total)
     end do
   end subroutine test_mass
 
+  !> Area of the polygon; volume by the divergence theorem: a third of the integral of x.n over
+  !> the bilinear faces, exact with 2 x 2 points.
+  real(wp) function measure(x)
+    real(wp), intent(in) :: x(:, :)
+    integer :: f, m
+    measure = zero
+    do f = 1, size(element%face, 2)
+      m = element%face_size(f)
+      associate (node => element%face(:m, f))
+        if (element%dim == 2) measure = measure + half*(x(1, node(1))*x(2, node(2)) &
+            - x(1, node(2))*x(2, node(1)))
+        if (element%dim == 3) measure = measure + flux(x(:, [node, node(m)]))/3.0_wp
+      end associate
+    end do
+  end function measure
+
+  !> Integral of x.n over a bilinear face.
+  real(wp) function flux(x)
+    real(wp), intent(in) :: x(:, :)
+    real(wp), parameter :: g = one/sqrt(3.0_wp)
+    real(wp) :: n(4), s, t
+    integer :: i, j
+    flux = zero
+    do i = -1, 1, 2
+      do j = -1, 1, 2
+        s = g*i
+        t = g*j
+        n = 0.25_wp*[(one - s)*(one - t), (one + s)*(one - t), (one + s)*(one + t), &
+            (one - s)*(one + t)]
+        flux = flux + dot_product(matmul(x(:, 1:4), n), cross( &
+            matmul(x(:, 1:4), 0.25_wp*[-(one - t), one - t, one + t, -(one + t)]), &
+            matmul(x(:, 1:4), 0.25_wp*[-(one - s), -(one + s), one + s, one - s])))
+      end do
+    end do
+  end function flux
+
   subroutine test_shape()
-    real(wp) :: x(2, element%nodes)
+    real(wp) :: x(element%dim, element%nodes)
     x = corners()
     call check_true(element%smallest_jacobian(x) > zero, element%name//' is a good shape')
-    call check_true(.not. element%smallest_jacobian(x(:, size(x, 2):1:-1)) > zero, &
-        element%name//' clockwise')
+    x(1, :) = -x(1, :)
+    call check_true(.not. element%smallest_jacobian(x) > zero, element%name//' mirrored')
+    x = corners()
     x(:, 2) = x(:, 1)
-    call check_true(.not. element%smallest_jacobian(x) > zero, element%name//' degenerate')
+    call check_true(.not. element%smallest_jacobian(x) > 1.0e-12_wp, element%name// &
+        ' degenerate')
     x = corners()
     call check_close(maxval(abs(element%sizes(2.0_wp*x) - 2.0_wp*element%sizes(x))), zero, &
-        1.0e-15_wp, element%name//' widths scale with the element')
+        1.0e-14_wp, element%name//' widths scale with the element')
   end subroutine test_shape
 
   !> Plane strain: (lambda + 2G), G; plane stress: no stress across; uniaxial stress gives E.

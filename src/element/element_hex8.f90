@@ -1,0 +1,111 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The trilinear hexahedron with 2 x 2 x 2 Gauss points.
+module element_hex8
+  use base_kinds, only: wp, one
+  use element_base, only: element_t, gauss
+  implicit none
+  private
+
+  type, extends(element_t), public :: hex8_t
+  contains
+    procedure :: shape => hex8_shape
+    procedure :: rule => hex8_rule
+    procedure :: mass_rule => hex8_mass_rule
+    procedure :: sizes => hex8_sizes
+    procedure :: smallest_jacobian => hex8_smallest_jacobian
+  end type hex8_t
+
+  real(wp), parameter, public :: corner(3, 8) = reshape([-one, -one, -one, one, -one, -one, &
+      one, one, -one, -one, one, -one, -one, -one, one, one, -one, one, one, one, one, &
+      -one, one, one], [3, 8])
+  integer, parameter, public :: hex_face(4, 6) = reshape([1, 5, 8, 4, 2, 3, 7, 6, 1, 2, 6, 5, &
+      4, 8, 7, 3, 1, 4, 3, 2, 5, 6, 7, 8], [4, 6])
+
+  public :: new_hex8, trilinear, corner_points
+
+contains
+
+  !> Its data.
+  pure function new_hex8() result(element)
+    type(hex8_t) :: element
+    element = hex8_t(name='HEX8', dim=3, nodes=8, vtk=12, face=hex_face)
+  end function new_hex8
+
+  pure subroutine hex8_shape(this, xi, n, dn)
+    class(hex8_t), intent(in) :: this
+    real(wp), intent(in) :: xi(:)
+    real(wp), intent(out) :: n(:), dn(:, :)
+    call trilinear(xi, n, dn)
+  end subroutine hex8_shape
+
+  !> N_i = (1 + xi_i xi) (1 + eta_i eta) (1 + zeta_i zeta)/8 and their derivatives.
+  pure subroutine trilinear(xi, n, dn)
+    real(wp), intent(in) :: xi(:)
+    real(wp), intent(out) :: n(:), dn(:, :)
+    real(wp) :: f(3)
+    integer :: i
+    do i = 1, 8
+      f = one + corner(:, i)*xi
+      n(i) = 0.125_wp*f(1)*f(2)*f(3)
+      dn(i, :) = 0.125_wp*corner(:, i)*[f(2)*f(3), f(1)*f(3), f(1)*f(2)]
+    end do
+  end subroutine trilinear
+
+  pure subroutine hex8_rule(this, points, xi, w)
+    class(hex8_t), intent(in) :: this
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    call corner_points([gauss, gauss, gauss], points, xi, w)
+  end subroutine hex8_rule
+
+  !> Eight points (+-a1, +-a2, +-a3), weight one: a = 1 is the lumped mass.
+  pure subroutine hex8_mass_rule(this, a, points, xi, w)
+    class(hex8_t), intent(in) :: this
+    real(wp), intent(in) :: a(:)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    call corner_points(a, points, xi, w)
+  end subroutine hex8_mass_rule
+
+  !> The corners, scaled.
+  pure subroutine corner_points(a, points, xi, w)
+    real(wp), intent(in) :: a(:)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    integer :: k
+    points = 8
+    w(1:8) = one
+    do k = 1, 8
+      xi(1:3, k) = a*corner(:, k)
+    end do
+  end subroutine corner_points
+
+  !> Distance between the centres of opposite faces.
+  pure function hex8_sizes(this, x) result(h)
+    class(hex8_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: h(size(x, 1)), across(3)
+    integer :: d, i
+    do d = 1, 3
+      across = corner(d, 1)*(x(:, 1) - x(:, 1))
+      do i = 2, 8
+        across = across + 0.25_wp*corner(d, i)*(x(:, i) - x(:, 1))
+      end do
+      h(d) = sqrt(sum(across**2))
+    end do
+  end function hex8_sizes
+
+  !> At the corners: where all are positive none inside was negative (doc/theory.md 1).
+  pure function hex8_smallest_jacobian(this, x) result(j)
+    class(hex8_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: j, n(8), dn(8, 3), det_j
+    integer :: k
+    j = huge(j)
+    do k = 1, 8
+      call this%gradients(x, corner(:, k), n, dn, det_j)
+      j = min(j, det_j)
+    end do
+  end function hex8_smallest_jacobian
+
+end module element_hex8
