@@ -141,8 +141,8 @@ contains
     do f = 1, size(element%face, 2)
       m = element%face_size(f)
       associate (node => element%face(:m, f))
-        if (element%dim == 2) a = [x(2, node(2)) - x(2, node(1)), x(1, node(1)) - x(1, node(2)), &
-            zero]
+        if (element%dim == 2) a = [x(2, node(2)) - x(2, node(1)), &
+            x(1, node(1)) - x(1, node(2)), zero]
         if (element%dim == 3) a = half*cross(x(:, node(3)) - x(:, node(1)), &
             x(:, node(m)) - x(:, node(2)))
         if (m == 3) a = half*cross(x(:, node(2)) - x(:, node(1)), x(:, node(3)) - x(:, node(1)))
