@@ -15,8 +15,8 @@ program test_facets
 contains
 
   !> Random facets, in-plane distortion .15, warped by up to .3 of an edge, and points up to .6
-  !> off and beyond their rims: no point of a grid of 41 x 41 is nearer, and another first corner
-  !> or the other sense gives the same distance.
+  !> off and beyond their rims: no point of a grid of 41 x 41 is nearer, and another first
+  !> corner or the other sense gives the same distance.
   subroutine test_closest(corners, trials)
     integer, intent(in) :: corners, trials
     real(wp) :: x(3, corners), p(3), shift(3, corners), d, other, wrong, turned
