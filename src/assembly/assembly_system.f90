@@ -377,8 +377,8 @@ contains
         y(2, i) = y(2, i) + factor*system%lumped(i)*x(2, i)
       end do
     else
-      call scalar_product(system%n, system%graph%first, system%graph%column, system%mass, &
-          factor, x, y)
+      call scalar_product(size(x, 1), system%n, system%graph%first, system%graph%column, &
+          system%mass, factor, x, y)
     end if
   end subroutine multiply_mass
 
@@ -394,8 +394,8 @@ contains
         q(:, i) = system%lumped(i)*y(:, i)
       end do
     else
-      call scalar_products(system%n, system%graph%first, system%graph%column, system%mass, &
-          x, y, p, q)
+      call scalar_products(size(x, 1), system%n, system%graph%first, system%graph%column, &
+          system%mass, x, y, p, q)
     end if
   end subroutine mass_products
 
