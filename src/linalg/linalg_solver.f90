@@ -15,9 +15,11 @@ module linalg_solver
   implicit none
   private
 
+  integer, parameter, public :: name_length = 10   !< of an engine or an order
+
   type, public :: solver_options_t
-    character(8) :: engine = 'AUTO'
-    character(8) :: order = 'AUTO'
+    character(name_length) :: engine = 'AUTO'
+    character(name_length) :: order = 'AUTO'
     integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
     !> A pivot below this share of its own diagonal before elimination counts as null: its
     !> unknown is set to zero. 0 = null pivots are an error.

@@ -6,7 +6,7 @@ module linalg_symbolic
   use linalg_graph, only: graph_t
   implicit none
   private
-  public :: symbolic_factor, count_factor
+  public :: symbolic_factor, count_factor, order_tree
 
 contains
 

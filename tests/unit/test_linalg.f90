@@ -12,10 +12,11 @@ program test_linalg
   use linalg_ldlt, only: ldlt_t
   use linalg_order, only: order_names
   use linalg_registry, only: make_solver, engine_names
-  use linalg_solver, only: solver_t, solver_options_t, solve_whole
+  use linalg_solver, only: solver_t, solver_options_t, solve_whole, name_length
   implicit none
-  character(8), parameter :: orders(4) = [character(8) :: order_names, 'AUTO']
-  character(8), allocatable :: engines(:)
+  character(name_length), parameter :: orders(4) = [character(name_length) :: &
+      order_names, 'AUTO']
+  character(name_length), allocatable :: engines(:)
   type(graph_t) :: graph
   type(block_matrix_t) :: matrix
   real(wp), allocatable :: whole(:, :), diagonal(:, :), dense(:, :)
@@ -36,6 +37,7 @@ program test_linalg
         call test_solver(trim(engines(e)), trim(orders(o)), [(k, k=1, graph%n)])
       end do
       call test_lost_pivot(trim(engines(e)), d)
+      call test_units(trim(engines(e)))
     end do
     call test_scalar_product()
     do k = 1, 60
@@ -45,6 +47,12 @@ program test_linalg
         call test_solver(trim(engines(e)), 'AUTO', some_nodes(k))
       end do
       call test_null_pivots()
+    end do
+    call graph_from_cliques(90, [1, 91], [(k, k=1, 90)], graph)
+    call fill_matrix()
+    do e = 1, size(engines)
+      call test_solver(trim(engines(e)), 'NATURAL', [integer ::])
+      call test_solver(trim(engines(e)), 'NATURAL', [(k, k=20, 90)])
     end do
   end do
   call test_unknown_names()
@@ -131,8 +139,9 @@ contains
     matrix%diagonal = reshape([(whole(i, i), i=1, d*graph%n)], [d, graph%n])
   end subroutine fill_matrix
 
-  !> Rows of at most 180 dofs, their sum of moduli outside the diagonal below it: the inverse is
-  !> below 1 and 1e-13 leaves a factor above 500 of round-off.
+  !> Rows of at most 270 dofs (a clique of 90 nodes: panels of more than one tile), their sum of
+  !> moduli outside the diagonal below it: the inverse is below 1 and 1e-13 leaves a factor above
+  !> 400 of round-off. Some columns of the flexibility are compared, whole.
   subroutine test_solver(engine, order, last)
     character(*), intent(in) :: engine, order
     integer, intent(in) :: last(:)
@@ -158,7 +167,7 @@ contains
         ' solves')
     if (size(last) == 0) return
     call solver%flexibility(f)
-    do k = 1, size(last)
+    do k = 1, size(last), 1 + size(last)/8
       i = 1 + mod(k, d)
       unit = zero
       unit(i, last(k)) = one
@@ -274,6 +283,28 @@ contains
       end do
     end do
   end subroutine multiply
+
+  !> Other units by a power of two, an odd one for the sake of square roots, change no digit.
+  subroutine test_units(engine)
+    character(*), intent(in) :: engine
+    class(solver_t), allocatable :: solver
+    type(block_matrix_t) :: other
+    type(status_t) :: status
+    real(wp), dimension(d, graph%n) :: b, x, y
+    real(wp), parameter :: unit = 2.0_wp**37
+    other = matrix
+    other%value = other%value*unit
+    other%diagonal = other%diagonal*unit
+    call random_number(b)
+    call make_solver(solver_options_t(engine=engine), solver, status)
+    call solver%analyse(graph, d, [3, 11], status)
+    call solver%factor(graph, matrix, status)
+    call solve_whole(solver, b, x)
+    call solver%factor(graph, other, status)
+    call solve_whole(solver, b, y)
+    call check_true(.not. any(abs(x - y*unit) > zero), engine// &
+        ' keeps its digits in other units')
+  end subroutine test_units
 
   subroutine test_unknown_names()
     class(solver_t), allocatable :: solver
