@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Lists of integers that grow.
+!> Lists of integers that grow; arrays that change places.
 module base_list
+  use base_kinds, only: wp
   implicit none
   private
-  public :: append
+  public :: append, swap
 
 contains
 
@@ -24,5 +25,14 @@ contains
     list(n + 1:n + size(items)) = items
     n = n + size(items)
   end subroutine append
+
+  !> Exchanges two arrays without copying.
+  subroutine swap(a, b)
+    real(wp), allocatable, intent(inout) :: a(:, :), b(:, :)
+    real(wp), allocatable :: c(:, :)
+    call move_alloc(a, c)
+    call move_alloc(b, a)
+    call move_alloc(c, b)
+  end subroutine swap
 
 end module base_list

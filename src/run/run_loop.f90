@@ -4,6 +4,7 @@ module run_loop
   use assembly_bending, only: look_at_bending
   use assembly_forces, only: largest_rotation, first_inverted
   use base_kinds, only: wp, zero, one, half
+  use base_list, only: swap
   use base_signal, only: stop_asked
   use base_status, only: status_t, fail, failed, add_place, status_numerical, status_stopped
   use base_strings, only: to_text
@@ -223,15 +224,6 @@ contains
     character(:), allocatable :: text
     text = 'step '//to_text(run%state%cycle)//', time '//to_text(run%state%time)
   end function moment
-
-  !> Exchanges two arrays without copying.
-  subroutine swap(a, b)
-    real(wp), allocatable, intent(inout) :: a(:, :), b(:, :)
-    real(wp), allocatable :: c(:, :)
-    call move_alloc(a, c)
-    call move_alloc(b, a)
-    call move_alloc(c, b)
-  end subroutine swap
 
   !> Motions that begin or end change the set of held dofs: another factor.
   subroutine prepare_motions(run, t1, status)

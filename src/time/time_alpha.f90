@@ -14,6 +14,7 @@ module time_alpha
   use assembly_forces, only: strain_product, subtract_internal_force
   use assembly_system, only: system_t, multiply_mass, mass_products
   use base_kinds, only: wp, zero, one, half
+  use base_list, only: swap
   use base_status, only: status_t
   use model_data, only: model_t
   use model_state, only: state_t
@@ -189,14 +190,6 @@ contains
           this%m_da) + (half - this%af)*strain_product(system, state%du)
     end if
   end function alpha_dissipation
-
-  subroutine swap(a, b)
-    real(wp), allocatable, intent(inout) :: a(:, :), b(:, :)
-    real(wp), allocatable :: kept(:, :)
-    call move_alloc(a, kept)
-    call move_alloc(b, a)
-    call move_alloc(kept, b)
-  end subroutine swap
 
   !> M dA.(w1 A1 + w2 dA - w3 dU): d(A.M A/2) is M dA.(A1 - dA/2).
   pure real(wp) function inertia_terms(n, weight, a, da, du, m_da) result(terms)
