@@ -639,7 +639,7 @@ def disc_impact(radius, gyration2, mu, rest, vt, vn):
 
 
 def three_in_a_row(rest, velocity=1.0):
-    """Velocities of three equal rigid bodies, the first of which arrives at the other two, which
+    """Velocities of three equal rigid bodies, the first of which arrives at the other two that
     touch: both contacts take part in one impact (Moreau 1988, Unilateral contact and dry
     friction in finite freedom dynamics)."""
     third = (1.0 + rest) * velocity / 3.0
