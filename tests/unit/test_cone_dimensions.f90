@@ -30,6 +30,7 @@ program test_cone_dimensions
     call test_ways(d)
     call test_redundant(d)
     call test_wedged(d)
+    call test_round_off(d)
   end do
   call test_tangents()
   call test_slip_along_tangent()
@@ -195,6 +196,27 @@ contains
     end do
     call check_equal(misses, 0, 'd = '//to_text(d)//', wedged: the law')
   end subroutine test_wedged
+
+  !> On a matrix the statuses that sweeps have found lead to an answer to round-off, whatever
+  !> tolerance is asked for: sums of d n products of condition 10 leave 1e-13.
+  subroutine test_round_off(d)
+    integer, intent(in) :: d
+    type(cone_options_t) :: options
+    real(wp) :: w(d*n, d*n), q(d, n), mu(n), r(d, n), u(d, n), exact(d, n)
+    integer :: trial
+    logical :: is_met
+    mu = 0.3_wp
+    do trial = 1, 10
+      call make_even(d, w, q)
+      options%tolerance = 1.0e-15_wp
+      call solve(blocks, options, w, q, mu, exact, u, is_met)
+      options%tolerance = 1.0e-6_wp
+      call solve(dense, options, w, q, mu, r, u, is_met)
+      call check_true(is_met, 'coarse: certified')
+      call check_close(norm2(r - exact), zero, 1.0e-13_wp*norm2(exact), &
+          'd = '//to_text(d)//', coarse: known to round-off all the same')
+    end do
+  end subroutine test_round_off
 
   function label(d, way)
     integer, intent(in) :: d, way
