@@ -58,7 +58,7 @@ contains
     type(real_writer_t), intent(in) :: writer
     class(pairing_t), intent(in) :: pairing
     integer, intent(in) :: side
-    real(wp) :: mean(2)
+    real(wp) :: mean(3)
     associate (s => pairing%sums)
       mean = half*(s%force(:, side) + s%force_before(:, side))
       call add_vector(file, writer, s%force(:, side))
@@ -128,8 +128,9 @@ contains
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
-    real(wp) :: pressure, mean(2)
+    real(wp) :: pressure, mean(3)
     integer :: p, k
+    mean = zero
     do p = 1, size(contact%pairing)
       if (contact%pairing(p)%item%is_wall) cycle
       associate (c => contact%pairing(p)%item%nodal)
@@ -143,7 +144,7 @@ contains
           call add_count(file, contact%pairing(p)%item%id)
           call add_count(file, c%side(k))
           call add_count(file, model%node_id(c%node(k)))
-          mean = half*(c%force(:, k) + c%before(:, k))
+          mean(:contact%dim) = half*(c%force(:, k) + c%before(:, k))
           call add_vector(file, writer, c%force(:, k))
           call add_vector(file, writer, mean)
           call add_numbers(file, writer, [pressure, c%gap(k), c%slip(k)])

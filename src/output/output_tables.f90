@@ -181,10 +181,14 @@ contains
   subroutine add_vector(file, writer, v)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
-    real(wp), intent(in) :: v(2)
+    real(wp), intent(in) :: v(:)
     call add_number(file, writer, v(1))
     call add_number(file, writer, v(2))
-    call add_number(file, writer, zero)
+    if (size(v) == 3) then
+      call add_number(file, writer, v(3))
+    else
+      call add_number(file, writer, zero)
+    end if
   end subroutine add_vector
 
   !> Closes all tables with the way the run ended.
