@@ -6,6 +6,7 @@ module cone_dense_solver
   use base_kinds, only: wp, zero
   use base_status, only: status_t
   use cone_active_set, only: try_active_set, try_pivoting
+  use cone_active_space, only: try_active_space
   use cone_blocks, only: delassus_blocks_t, blocks_from_dense
   use cone_blocks_solver, only: solve_blocks
   use cone_certificate, only: evaluate_certificate, find_statuses, fail_uncertified
@@ -54,8 +55,8 @@ contains
           certificate%local_iterations)
       certificate%sweeps = sweep
       call evaluate_certificate(m, mu, q, r, work%u, options%tolerance, certificate)
-      if (options%solver /= solver_gs .and. active_set_is_due(sweep, work)) &
-          call try_active_set(options%tolerance, w, q, mu, m, r, work, certificate)
+      if (options%solver /= solver_gs .and. active_set_is_due(sweep, certificate%met, work)) &
+          call solve_active(options, w, q, mu, m, r, work, certificate)
       if (certificate%met) return
       if (sweep == patience .and. options%solver /= solver_gs) &
           call fallback(options, w, q, mu, m, r, work, certificate)
@@ -92,16 +93,34 @@ contains
     r = kept
   end subroutine start_over
 
+  !> The direct solve for the statuses as they are.
+  subroutine solve_active(options, w, q, mu, m, r, work, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(delassus_dense_t), intent(in) :: w
+    real(wp), intent(in), contiguous :: q(:, :), mu(:)
+    real(wp), intent(in) :: m
+    real(wp), intent(inout), contiguous :: r(:, :)
+    type(cone_work_t), intent(inout) :: work
+    type(certificate_t), intent(inout) :: certificate
+    if (work%d == 3) then
+      call try_active_space(options%tolerance, w, q, mu, m, r, work, certificate)
+    else
+      call try_active_set(options%tolerance, w, q, mu, m, r, work, certificate)
+    end if
+  end subroutine solve_active
+
   !> A direct solve is worth it when the statuses are new and the system is small or the sweeps
-  !> slow.
-  pure logical function active_set_is_due(sweep, work) result(due)
+  !> slow. In space it may fail from a start that was too far off: again at the end, so that the
+  !> answer is known to round-off.
+  pure logical function active_set_is_due(sweep, is_met, work) result(due)
     integer, intent(in) :: sweep
+    logical, intent(in) :: is_met
     type(cone_work_t), intent(in) :: work
     integer :: unknowns
-    unknowns = sum(merge(0, merge(1, work%d, work%status == contact_slip), &
+    unknowns = sum(merge(0, merge(max(1, work%d - 1), work%d, work%status == contact_slip), &
         work%status == contact_open))
-    due = unknowns > 0 .and. work%d < 3 .and. (unknowns <= small_system .or. sweep > unknowns)
-    if (due) due = any(work%status /= work%tried)
+    due = unknowns > 0 .and. (unknowns <= small_system .or. sweep > unknowns)
+    if (due) due = any(work%status /= work%tried) .or. (work%d == 3 .and. is_met)
   end function active_set_is_due
 
   !> Where sweeps are slow: complementary pivoting for few contacts in the plane, then the

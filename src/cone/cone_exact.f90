@@ -101,27 +101,19 @@ contains
     real(wp), intent(inout) :: nearest, best(:)
     integer, intent(inout) :: status
     real(wp), parameter :: turn = 6.283185307179586_wp
-    real(wp) :: low, high, at_low, at_high, middle, at_middle, e(2), bottom, normal, slip(2)
-    integer :: k, i
+    real(wp) :: low, high, at_low, at_high, at_first, e(2), bottom, normal, slip(2)
+    integer :: k
     high = zero
-    at_high = across(w, mu, q, high)
+    at_first = across(w, mu, q, high)
+    at_high = at_first
     do k = 1, directions
       low = high
       at_low = at_high
       high = turn*k/directions
-      at_high = across(w, mu, q, high)
-      if (at_low*at_high > zero) cycle
-      do i = 1, halvings
-        middle = half*(low + high)
-        at_middle = across(w, mu, q, middle)
-        if ((at_low <= zero) .eqv. (at_middle <= zero)) then
-          low = middle
-        else
-          high = middle
-        end if
-      end do
-      high = turn*k/directions
-      e = [cos(middle), sin(middle)]
+      at_high = at_first                     ! the circle closes to the last bit
+      if (k < directions) at_high = across(w, mu, q, high)
+      if (.not. has_root(at_low, at_high)) cycle
+      e = direction_between(w, mu, q, low, high, at_high)
       bottom = w(1, 1) - mu*(w(1, 2)*e(1) + w(1, 3)*e(2))
       if (.not. bottom > epsilon(one)*w(1, 1)) cycle
       normal = -q(1)/bottom
@@ -130,6 +122,36 @@ contains
       call keep(r, [one, -mu*e], normal, nearest, best, status)
     end do
   end subroutine try_slip_space
+
+  !> A root in an interval without its lower end, or at its upper end: a root at a direction
+  !> that is tried (slip along a tangent, say) is that of one interval, not of two.
+  pure logical function has_root(at_low, at_high)
+    real(wp), intent(in) :: at_low, at_high
+    has_root = (at_low < zero .and. at_high >= zero) .or. (at_low > zero .and. at_high <= zero)
+  end function has_root
+
+  !> The direction between two angles where `across` changes its sign, by bisection; that of
+  !> high where it is zero there.
+  pure function direction_between(w, mu, q, from, to, at_to) result(e)
+    real(wp), intent(in) :: w(:, :), mu, q(:), from, to, at_to
+    real(wp) :: e(2), low, high, middle
+    logical :: is_above
+    integer :: i
+    low = from
+    high = to
+    if (abs(at_to) > zero) then
+      do i = 1, halvings
+        middle = half*(low + high)
+        is_above = across(w, mu, q, middle) > zero
+        if (is_above .eqv. at_to > zero) then
+          high = middle
+        else
+          low = middle
+        end if
+      end do
+    end if
+    e = [cos(high), sin(high)]
+  end function direction_between
 
   !> Component of u_t across the direction at `angle`, times the (positive) denominator of r_n.
   pure real(wp) function across(w, mu, q, angle)

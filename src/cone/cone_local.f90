@@ -8,7 +8,7 @@ module cone_local
   implicit none
   private
   public :: project_on_cone, in_cone, predict_and_correct, contact_map, solve_local, &
-      tangent_length, may_wedge
+      tangent_length, size_of, may_wedge
 
 contains
 
@@ -33,6 +33,13 @@ contains
     if (d == 2) length_of = abs(v(2))
     if (d > 2) length_of = sqrt(v(2)**2 + v(3)**2)
   end function length_of
+
+  !> The larger of normal and tangential part of v(d): the same for all tangents.
+  pure real(wp) function size_of(d, v)
+    integer, intent(in) :: d
+    real(wp), intent(in) :: v(d)
+    size_of = max(abs(v(1)), length_of(d, v))
+  end function size_of
 
   !> Does W_aa = w alone allow several answers, or none? mu |W_nt| > W_nn (Klarbring 1990).
   pure logical function may_wedge(w, mu)
@@ -153,7 +160,7 @@ contains
 
   !> Predictor and corrector with the local law (De Saxce & Feng 1998):
   !>   tau = r - rho (u_n + mu |u_t|, u_t),  r = P_K(tau),  u = w r + q,
-  !> repeated until r moves less than `enough`. On entry u belongs to r; on exit too.
+  !> repeated until r moves less than `enough` (size_of). On entry u belongs to r; on exit too.
   pure subroutine solve_local(w, mu, rho, enough, max_iterations, r, u, status, iterations)
     real(wp), intent(in) :: w(:, :)
     real(wp), intent(in) :: mu
@@ -175,7 +182,7 @@ contains
         u = u + w(:, i)*change(i)
       end do
       r = next(:d)
-      if (maxval(abs(change(:d))) <= enough) exit
+      if (size_of(d, change) <= enough) exit
     end do
     iterations = min(iterations, max_iterations)
   end subroutine solve_local

@@ -5,7 +5,7 @@
 module cone_visit
   use base_kinds, only: wp, zero, one, half
   use cone_exact, only: solve_exact
-  use cone_local, only: contact_map, solve_local, tangent_length
+  use cone_local, only: contact_map, size_of, solve_local, tangent_length
   use cone_types, only: cone_options_t, local_exact, local_newton, most_components
   use linalg_dense, only: solve_small
   implicit none
@@ -53,7 +53,7 @@ contains
     d = size(r)
     call contact_map(mu, rho, r, u, map(:d), part(:d, :d), status)
     do iterations = 1, most
-      done = maxval(abs(map(:d))) <= enough
+      done = size_of(d, map) <= enough
       if (done) exit
       call fill_jacobian(w, mu, rho, u, part(:d, :d), jacobian(:d, :d))
       move(:d) = -map(:d)
@@ -77,7 +77,7 @@ contains
       u = u_new(:d)
       map = map_new
       part = part_new
-      if (maxval(abs(move(:d))) <= enough) exit
+      if (size_of(d, move) <= enough) exit
     end do
     iterations = min(iterations, most)
     call project_once(w, mu, rho, r, u, status)

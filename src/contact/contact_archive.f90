@@ -7,7 +7,7 @@ module contact_archive
   use cone_types, only: certificate_t
   use contact_condense, only: size_schur_inverse
   use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
-  use contact_rows, only: rows_t, start_rows, size_points, row_kinds
+  use contact_rows, only: rows_t, start_rows, size_points, set_tangents, row_kinds
   use contact_types, only: contact_t, tally_t
   use contact_work, only: find_nodal
   implicit none
@@ -47,7 +47,7 @@ contains
     begins = .false.
     do p = 1, size(contact%pairing)
       associate (pairing => contact%pairing(p)%item)
-        call exchange_pairing(archive, pairing)
+        call exchange_pairing(archive, contact%dim, pairing)
         call archive%agree('nodal.', allocated(pairing%nodal), is_kept)
         if (is_kept) then
           call exchange_nodal(archive, pairing%nodal)
@@ -110,6 +110,7 @@ contains
     call archive%exchange('rows.r_previous', rows%r_previous(:, :n))
     call archive%exchange('rows.r_older', rows%r_older(:, :n))
     call archive%exchange('rows.u', rows%u(:, :n))
+    if (archive%mode == archive_restore) call set_tangents(rows)
   end subroutine exchange_rows
 
   subroutine exchange_tally(archive, tally)
@@ -164,8 +165,9 @@ contains
     certificate%met = values(4) > 0.5_wp
   end subroutine exchange_certificate
 
-  subroutine exchange_pairing(archive, pairing)
+  subroutine exchange_pairing(archive, dim, pairing)
     type(archive_t), intent(inout) :: archive
+    integer, intent(in) :: dim
     class(pairing_t), intent(inout) :: pairing
     real(wp) :: values(8)
     integer :: counts(2)
@@ -186,24 +188,26 @@ contains
     pairing%purse%wanted = values(7)
     pairing%purse%beta = values(8)
     if (pairing%is_born) then
-      if (.not. allocated(pairing%reference_1)) allocate (pairing%reference_1(2, &
-          size(pairing%side(1)%node)), pairing%reference_2(2, size(pairing%side(2)%node)))
+      if (.not. allocated(pairing%reference_1)) allocate (pairing%reference_1(dim, &
+          size(pairing%side(1)%node)), pairing%reference_2(dim, size(pairing%side(2)%node)))
       call archive%exchange('pairing.reference_1', pairing%reference_1)
       call archive%exchange('pairing.reference_2', pairing%reference_2)
     end if
     if (allocated(pairing%ramp)) call archive%exchange('pairing.ramp', pairing%ramp%start)
     if (allocated(pairing%ramp)) pairing%ramp%is_known = any(pairing%ramp%start < zero)
     call pairing%exchange(archive)
-    call exchange_sums(archive, pairing%sums)
+    call exchange_sums(archive, dim, pairing%sums)
   end subroutine exchange_pairing
 
-  subroutine exchange_sums(archive, sums)
+  subroutine exchange_sums(archive, dim, sums)
     type(archive_t), intent(inout) :: archive
+    integer, intent(in) :: dim
     type(pair_sums_t), intent(inout) :: sums
-    real(wp) :: values(21)
+    real(wp) :: values(9 + 6*dim)
+    integer :: k
     values = [sums%normal_force, sums%tangential_force, sums%normal_work, sums%friction_work, &
         sums%penetration, sums%smallest_gap, real([sums%n_active, sums%n_stick, sums%n_slip], &
-        wp), sums%force, sums%force_before, sums%impulse]
+        wp), sums%force(:dim, :), sums%force_before(:dim, :), sums%impulse(:dim, :)]
     call archive%exchange('pair.sums', values)
     sums%normal_force = values(1)
     sums%tangential_force = values(2)
@@ -214,9 +218,10 @@ contains
     sums%n_active = nint(values(7))
     sums%n_stick = nint(values(8))
     sums%n_slip = nint(values(9))
-    sums%force = reshape(values(10:13), [2, 2])
-    sums%force_before = reshape(values(14:17), [2, 2])
-    sums%impulse = reshape(values(18:21), [2, 2])
+    k = 2*dim
+    sums%force(:dim, :) = reshape(values(10:9 + k), [dim, 2])
+    sums%force_before(:dim, :) = reshape(values(10 + k:9 + 2*k), [dim, 2])
+    sums%impulse(:dim, :) = reshape(values(10 + 2*k:), [dim, 2])
   end subroutine exchange_sums
 
   subroutine exchange_nodal(archive, nodal)

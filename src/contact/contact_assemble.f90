@@ -3,11 +3,13 @@
 !> shows to be missing.
 module contact_assemble
   use base_kinds, only: wp, zero, one
+  use cone_types, only: most_components
   use contact_features, only: smooth_angle
+  use contact_kinematics, only: relative_displacement
   use contact_pairing, only: late_t
   use contact_ramp, only: ramp_floor
   use contact_rows, only: rows_t, start_rows, add_row, copy_row, swap_rows, same_geometry, &
-      carry_reactions, take_reactions, comes_before, find_slots, relative_displacement, row_wall
+      carry_reactions, take_reactions, comes_before, find_slots
   use contact_types, only: contact_t
   use model_data, only: model_t
   implicit none
@@ -16,7 +18,7 @@ module contact_assemble
 
 contains
 
-  !> Rows at displacement u (2, nodes) for the free motion x_free (2, m) of the interface. W
+  !> Rows at displacement u (dim, nodes) for the free motion x_free (dim, m) of the interface. W
   !> stays where their geometry is that of the last step. Rows with an allowance that pushed
   !> in the last step are among them from the start.
   subroutine find_rows(model, contact, u, x_free)
@@ -152,7 +154,7 @@ contains
     call use_rows(contact, .false.)
   end subroutine take_spare
 
-  !> After a solve with force (2, m) on the interface: spare rows that are below their
+  !> After a solve with force (dim, m) on the interface: spare rows that are below their
   !> allowance come first; where there is none, nodes that are too deep at the end of the
   !> step, and rows whose frames have turned too much. Bodies that only pass turn too:
   !> acting or not, the end is looked at. is_complete: nothing was missing.
@@ -162,7 +164,7 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), x_free(:, :), force(:, :)
     logical, intent(in) :: acting
     logical, intent(out) :: is_complete
-    real(wp) :: d(2)
+    real(wp) :: d(most_components)
     integer :: b, n
     is_complete = .true.
     contact%x_end = x_free
@@ -198,7 +200,7 @@ contains
     end do
   end subroutine add_product
 
-  !> Displacement of the interface nodes at the end of a step of motion x (2, m).
+  !> Displacement of the interface nodes at the end of a step of motion x (dim, m).
   pure subroutine place_end(contact, u, x)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: u(:, :), x(:, :)
@@ -266,7 +268,8 @@ contains
     allowance = late%allowance
     if (late%row > 0) allowance = contact%rows%allowance(late%row)
     call add_row(contact%next, late%key, late%point(:late%points), &
-        late%weight(:late%points), late%normal, gap, mu, late%length, late%kind, allowance)
+        late%weight(:late%points), late%normal(:contact%dim), gap, mu, late%length, &
+        late%kind, allowance)
     if (late%row > 0) then
       contact%tally%new_frames = contact%tally%new_frames + 1
       call take_reactions(contact%rows, late%row, contact%next, contact%next%n)
@@ -283,7 +286,8 @@ contains
     integer :: b
     do b = 1, contact%spare%n
       if (any(contact%spare%key(1:3, b) /= late%key(1:3))) cycle
-      if (dot_product(contact%spare%normal(:, b), late%normal) > cos(smooth_angle)) &
+      if (dot_product(contact%spare%normal(:, b), late%normal(:contact%dim)) &
+          > cos(smooth_angle)) &
           contact%spare%allowance(b) = huge(one)
     end do
   end subroutine drop_spare

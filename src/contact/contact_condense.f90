@@ -6,7 +6,8 @@ module contact_condense
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, zero, one
-  use contact_rows, only: rows_t, row_of_h
+  use contact_kinematics, only: row_of_h
+  use contact_rows, only: rows_t
   use contact_types, only: contact_t
   implicit none
   private
@@ -41,20 +42,20 @@ contains
   subroutine size_schur_inverse(contact)
     type(contact_t), intent(inout) :: contact
     integer :: dofs
-    dofs = 2*size(contact%interface_node)
+    dofs = contact%dim*size(contact%interface_node)
     if (allocated(contact%schur_inverse)) &
         deallocate (contact%schur_inverse, contact%column, contact%x_end)
     allocate (contact%schur_inverse(dofs, dofs), contact%column(dofs))
-    allocate (contact%x_end(2, dofs/2))
+    allocate (contact%x_end(contact%dim, size(contact%interface_node)))
   end subroutine size_schur_inverse
 
-  !> To be called with a new S^-1: dofs of the list, (2, *) direction and node, do not move,
+  !> To be called with a new S^-1: dofs of the list, (2, *) component and node, do not move,
   !> whatever the force. W must be built from it.
   subroutine constrain_interface(contact, list)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: list(:, :)
     integer :: k
-    contact%constrained = pack(2*contact%slot(list(2, :)) - 2 + list(1, :), &
+    contact%constrained = pack(contact%dim*(contact%slot(list(2, :)) - 1) + list(1, :), &
         contact%slot(list(2, :)) > 0)
     do k = 1, size(contact%constrained)
       contact%schur_inverse(contact%constrained(k), :) = zero
@@ -63,13 +64,14 @@ contains
     contact%w_is_current = .false.
   end subroutine constrain_interface
 
-  !> No force (2, m) on constrained dofs.
+  !> No force (dim, m) on constrained dofs.
   pure subroutine clear_constrained(contact, force)
     type(contact_t), intent(in) :: contact
     real(wp), intent(inout) :: force(:, :)
-    integer :: k
+    integer :: k, d
+    d = contact%dim
     do k = 1, size(contact%constrained)
-      force(1 + mod(contact%constrained(k) - 1, 2), (contact%constrained(k) + 1)/2) = zero
+      force(1 + mod(contact%constrained(k) - 1, d), (contact%constrained(k) - 1)/d + 1) = zero
     end do
   end subroutine clear_constrained
 
@@ -102,13 +104,13 @@ contains
     type(contact_t), intent(in) :: contact
     character(*), parameter :: place = 'build_w'
     integer :: points, m
-    m = size(contact%interface_node)
+    m = contact%dim*size(contact%interface_node)
     associate (rows => contact%rows)
       points = rows%first(rows%n + 1) - 1
-      call assert_shape(shape(contact%schur_inverse), [2*m, 2*m], place, &
+      call assert_shape(shape(contact%schur_inverse), [m, m], place, &
           'contact%schur_inverse')
-      call assert(all(rows%slot(:points) >= 1 .and. rows%slot(:points) <= m), place, &
-          'every point of a row is an interface node')
+      call assert(all(rows%slot(:points) >= 1 .and. contact%dim*rows%slot(:points) <= m), &
+          place, 'every point of a row is an interface node')
       call assert(all(ieee_is_finite(rows%weight(:points))) .and. &
           all(ieee_is_finite(rows%normal(:, :rows%n))), place, &
           'weights and normals are finite')
@@ -119,8 +121,8 @@ contains
   pure subroutine mark_rigid(schur_inverse, rows)
     real(wp), intent(in) :: schur_inverse(:, :)
     type(rows_t), intent(inout) :: rows
-    real(wp) :: scale, normal, weight(2*rows%most_points)
-    integer :: a, i, j, k, n, dof(2*rows%most_points)
+    real(wp) :: scale, normal, weight(rows%dim*rows%most_points)
+    integer :: a, i, j, k, n, dof(rows%dim*rows%most_points)
     scale = zero
     do i = 1, size(schur_inverse, 1)
       scale = max(scale, schur_inverse(i, i))
@@ -142,7 +144,7 @@ contains
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n
     integer :: rows, dofs
-    dofs = 2*contact%rows%most_points
+    dofs = contact%dim*contact%rows%most_points
     if (contact%n == n .and. allocated(contact%w%matrix)) then
       if (size(contact%h_dof, 1) >= dofs) return
     end if

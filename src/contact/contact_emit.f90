@@ -78,7 +78,7 @@ contains
     late(n)%row = found
     late(n)%key = key_of(number, place)
     call points_of_place(obstacle, place, late(n)%point, late(n)%weight, late(n)%points)
-    late(n)%normal = place%normal
+    late(n)%normal = [place%normal, zero]
     late(n)%gap = gap_to_place(late(n)%point(:late(n)%points), &
         late(n)%weight(:late(n)%points), place%normal, x, u0)
     late(n)%allowance = merge(zero, place%allowance, place%is_exact)

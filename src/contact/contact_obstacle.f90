@@ -272,7 +272,8 @@ contains
       if (maxval(abs(m - rows%normal(:, a))) <= same_normal) cycle
       n = n + 1
       late(n) = late_t(row=a, key=rows%key(:, a), points=2, &
-          point=[rows%key(3, a), this%body, 0], weight=[one, -one, zero], normal=m, &
+          point=[rows%key(3, a), this%body, 0, 0, 0], &
+          weight=[one, -one, zero, zero, zero], normal=[m, zero], &
           gap=rows%gap(a), length=rows%length(a), kind=rows%kind(a))
     end do
   end subroutine obstacle_find_late

@@ -21,7 +21,7 @@ module contact_pairing
     integer, allocatable :: node(:), side(:)
     integer, allocatable :: first(:)           !< (2) before the first node of each side
     real(wp), allocatable :: area(:)           !< of the boundary that can touch [L2]
-    real(wp), allocatable :: force(:, :), before(:, :)  !< (2, *) of this step, of the last [F]
+    real(wp), allocatable :: force(:, :), before(:, :)  !< (dim, *) of this step, the last [F]
     real(wp), allocatable :: normal(:)         !< normal force [F]
     real(wp), allocatable :: gap(:), slip(:)   !< [L]; no_gap where the node is not listed
     integer, allocatable :: status(:)
@@ -33,9 +33,9 @@ module contact_pairing
 
   !> Sums over a pairing for the tables.
   type, public :: pair_sums_t
-    real(wp) :: force(2, 2) = zero         !< (xy, side) of the step just done [F]
-    real(wp) :: force_before(2, 2) = zero  !< of the step before
-    real(wp) :: impulse(2, 2) = zero       !< since t = 0 [F T]
+    real(wp) :: force(3, 2) = zero         !< (xyz, side) of the step just done [F]
+    real(wp) :: force_before(3, 2) = zero  !< of the step before
+    real(wp) :: impulse(3, 2) = zero       !< since t = 0 [F T]
     real(wp) :: normal_force = zero, tangential_force = zero
     real(wp) :: normal_work = zero         !< lost, cumulative [F L]
     real(wp) :: friction_work = zero       !< lost, cumulative [F L]
@@ -71,9 +71,10 @@ module contact_pairing
     integer :: row = 0              !< whose frame is replaced; 0: a new row
     integer :: key(4) = 0
     integer :: points = 0
-    integer :: point(3) = 0
-    real(wp) :: weight(3) = zero
-    real(wp) :: normal(2) = zero, gap = zero, allowance = zero, length = zero
+    integer :: point(5) = 0
+    real(wp) :: weight(5) = zero
+    !> normal: the last component is zero in the plane
+    real(wp) :: normal(3) = zero, gap = zero, allowance = zero, length = zero
     integer :: kind = 0
   end type late_t
 

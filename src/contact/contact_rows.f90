@@ -1,17 +1,19 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Rows of contact as plain arrays. Row a says how its contactor point moves relative to the
 !> obstacle: points k with weights c_k (contactor 1, obstacle negative, sum 0; at a wall the
-!> contactor alone), a normal n, t = n turned by +90 degrees:
-!>   H_a = [n t]' sum_k c_k I_k,   u_a = H_a dU + (c, 0),   nodal forces = H' r.
-!> The sum of the nodal forces of a row is zero because the weights sum to zero.
+!> contactor alone), a normal n and tangents: in the plane t = n turned by +90 degrees, in space
+!> t1 and t2 = n x t1:
+!>   H_a = [n t1 t2]' sum_k c_k I_k,   u_a = H_a dU + (c, 0, 0),   nodal forces = H' r.
+!> The sum of the nodal forces of a row is zero because the weights sum to zero. dim is 2 or 3.
 module contact_rows
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use cone_types, only: contact_open
   implicit none
   private
 
   type, public :: rows_t
     integer :: n = 0
+    integer :: dim = 2                     !< of normals
     integer :: most_points = 3             !< of a row, so far
     !> (4, n) pairing, side of the contactor node, the node, edge (< 0: vertex; 0: of a wall or
     !> of a mortar)
@@ -23,10 +25,11 @@ module contact_rows
     integer, allocatable :: point(:)
     integer, allocatable :: slot(:)        !< the same among the interface nodes
     real(wp), allocatable :: weight(:)     !< c_k
-    real(wp), allocatable :: normal(:, :)  !< (2, n)
+    real(wp), allocatable :: normal(:, :)  !< (dim, n)
+    real(wp), allocatable :: tangent(:, :, :)  !< (3, 2, n) in space
     real(wp), allocatable :: gap(:)        !< at the start of the step [L]
     real(wp), allocatable :: offset(:)     !< c of u_n [L]
-    real(wp), allocatable :: offset_t(:)   !< of u_t [L], zero on positions
+    real(wp), allocatable :: offset_t(:, :)  !< (dim - 1, n) of u_t [L], zero on positions
     real(wp), allocatable :: allowance(:)  !< the gap may be this far below zero [L]
     real(wp), allocatable :: mu(:)
     real(wp), allocatable :: length(:)     !< of the edge [L]
@@ -34,8 +37,8 @@ module contact_rows
     logical, allocatable :: is_twin(:)     !< an exact row of another node says the same
     logical, allocatable :: is_marked(:)   !< to be moved to another list
     logical, allocatable :: is_active(:)   !< takes part in the solve
-    ! Reactions (n, t) of this step and of the two solves before [F], displacement [L],
-    ! status.
+    ! (dim, n) reactions (n, t1, t2) of this step and of the two solves before [F],
+    ! displacement [L]; status.
     real(wp), allocatable :: r(:, :), r_previous(:, :), r_older(:, :), u(:, :)
     integer, allocatable :: status(:)
   end type rows_t
@@ -47,16 +50,21 @@ module contact_rows
       row_guided = 5, row_mortar = 6, row_kinds = 6
 
   public :: start_rows, size_points, add_row, renew_gap, copy_row, copy_rows, swap_rows, &
-      same_geometry, carry_reactions, take_reactions, comes_before, find_slots, &
-      relative_displacement, row_force, add_row_force, row_of_h
+      same_geometry, carry_reactions, take_reactions, comes_before, find_slots, set_tangents, &
+      tangents_of
 
 contains
 
-  !> Empties the list; room for n rows, where given, or some.
-  pure subroutine start_rows(rows, n)
+  !> Empties the list; room for n rows, where given, or some. dim, the first time: 2 where it is
+  !> not given.
+  pure subroutine start_rows(rows, n, dim)
     type(rows_t), intent(inout) :: rows
-    integer, intent(in), optional :: n
-    if (.not. allocated(rows%key)) call size_rows(rows, 16)
+    integer, intent(in), optional :: n, dim
+    if (.not. allocated(rows%key)) then
+      if (present(dim)) rows%dim = dim
+      rows%most_points = usual_points(rows)
+      call size_rows(rows, 16)
+    end if
     if (present(n)) then
       if (size(rows%gap) < n) call size_rows(rows, n)
     end if
@@ -64,20 +72,27 @@ contains
     rows%first(1) = 1
   end subroutine start_rows
 
-  !> Storage for n rows, of three points each where no longer one has come; what is in it is
-  !> kept.
+  !> Points of a row on an edge of the plane, or on a facet of four nodes in space.
+  pure integer function usual_points(rows)
+    type(rows_t), intent(in) :: rows
+    usual_points = 2*rows%dim - 1
+  end function usual_points
+
+  !> Storage for n rows, of the usual number of points each where no longer one has come; what
+  !> is in it is kept.
   pure subroutine size_rows(rows, n)
     type(rows_t), intent(inout) :: rows
     integer, intent(in) :: n
     call size_integers(rows%key, 4, n)
-    call size_reals(rows%normal, 2, n)
-    call size_reals(rows%r, 2, n)
-    call size_reals(rows%r_previous, 2, n)
-    call size_reals(rows%r_older, 2, n)
-    call size_reals(rows%u, 2, n)
+    call size_reals(rows%normal, rows%dim, n)
+    call size_reals(rows%r, rows%dim, n)
+    call size_reals(rows%r_previous, rows%dim, n)
+    call size_reals(rows%r_older, rows%dim, n)
+    call size_reals(rows%u, rows%dim, n)
     call size_real(rows%gap, n)
     call size_real(rows%offset, n)
-    call size_real(rows%offset_t, n)
+    call size_reals(rows%offset_t, rows%dim - 1, n)
+    if (rows%dim == 3) call size_tangents(rows%tangent, n)
     call size_real(rows%allowance, n)
     call size_real(rows%mu, n)
     call size_real(rows%length, n)
@@ -88,7 +103,7 @@ contains
     call size_logical(rows%is_marked, n)
     call size_logical(rows%is_active, n)
     call size_logical(rows%is_twin, n)
-    call size_points(rows, 3*n)
+    call size_points(rows, usual_points(rows)*n)
   end subroutine size_rows
 
   !> Storage for n points at least.
@@ -112,6 +127,16 @@ contains
     if (allocated(a)) longer(:, :size(a, 2)) = a
     call move_alloc(longer, a)
   end subroutine size_reals
+
+  pure subroutine size_tangents(a, n)
+    real(wp), allocatable, intent(inout) :: a(:, :, :)
+    integer, intent(in) :: n
+    real(wp), allocatable :: longer(:, :, :)
+    allocate (longer(3, 2, n))
+    longer = zero
+    if (allocated(a)) longer(:, :, :size(a, 3)) = a
+    call move_alloc(longer, a)
+  end subroutine size_tangents
 
   pure subroutine size_real(a, n)
     real(wp), allocatable, intent(inout) :: a(:)
@@ -158,22 +183,25 @@ contains
   pure subroutine add_row(rows, key, point, weight, normal, gap, mu, length, kind, allowance)
     type(rows_t), intent(inout) :: rows
     integer, intent(in) :: key(4), point(:), kind
-    real(wp), intent(in) :: weight(:), normal(2), gap, mu, length, allowance
+    real(wp), intent(in) :: weight(:), normal(rows%dim), gap, mu, length, allowance
     integer :: k
     if (rows%n == size(rows%gap)) call size_rows(rows, 2*rows%n)
     rows%n = rows%n + 1
     associate (a => rows%n)
       rows%key(:, a) = key
       rows%first(a + 1) = rows%first(a) + size(point)
-      if (size(point) > 3) call make_room(rows)
+      if (size(point) > usual_points(rows)) call make_room(rows)
       do k = 1, size(point)
         rows%point(rows%first(a) + k - 1) = point(k)
         rows%weight(rows%first(a) + k - 1) = weight(k)
       end do
-      rows%normal(:, a) = normal
+      rows%normal(1, a) = normal(1)
+      rows%normal(2, a) = normal(2)
+      if (rows%dim == 3) rows%normal(3, a) = normal(3)
+      if (rows%dim == 3) rows%tangent(:, :, a) = tangents_of(normal)
       rows%gap(a) = gap
       rows%offset(a) = gap + allowance
-      rows%offset_t(a) = zero
+      rows%offset_t(:, a) = zero
       rows%allowance(a) = allowance
       rows%kind(a) = kind
       rows%mu(a) = mu
@@ -190,14 +218,15 @@ contains
     end associate
   end subroutine add_row
 
-  !> Room for the points of the last row, which has more than three.
+  !> Room for the points of the last row, which has more than the usual number.
   pure subroutine make_room(rows)
     type(rows_t), intent(inout) :: rows
-    associate (first => rows%first(rows%n), behind => rows%first(rows%n + 1))
+    associate (first => rows%first(rows%n), behind => rows%first(rows%n + 1), &
+        usual => usual_points(rows))
       rows%most_points = max(rows%most_points, behind - first)
-      ! What is left holds all other rows, if they have three points each.
-      if (behind - 1 + 3*(size(rows%gap) - rows%n) > size(rows%weight)) &
-          call size_points(rows, 2*(behind - 1) + 3*size(rows%gap))
+      ! What is left holds all other rows, if they have the usual number each.
+      if (behind - 1 + usual*(size(rows%gap) - rows%n) > size(rows%weight)) &
+          call size_points(rows, 2*(behind - 1) + usual*size(rows%gap))
     end associate
   end subroutine make_room
 
@@ -278,18 +307,41 @@ contains
     type(rows_t), intent(inout) :: rows
     real(wp) :: c, s
     rows%status(a) = old%status(b)
-    rows%r(:, a) = old%r(:, b)
-    rows%r_previous(:, a) = old%r_previous(:, b)
-    rows%r_older(:, a) = old%r_older(:, b)
-    associate (n => rows%normal(:, a), m => old%normal(:, b))
+    if (rows%dim == 3) then
+      call take_in_space(old, b, rows, a)
+      return
+    end if
+    rows%r(1:2, a) = old%r(1:2, b)
+    rows%r_previous(1:2, a) = old%r_previous(1:2, b)
+    rows%r_older(1:2, a) = old%r_older(1:2, b)
+    associate (n => rows%normal(1:2, a), m => old%normal(1:2, b))
       if (.not. any(abs(n - m) > zero)) return
       c = n(1)*m(1) + n(2)*m(2)
       s = n(1)*m(2) - n(2)*m(1)
     end associate
-    rows%r(:, a) = turned(c, s, rows%r(:, a))
-    rows%r_previous(:, a) = turned(c, s, rows%r_previous(:, a))
-    rows%r_older(:, a) = turned(c, s, rows%r_older(:, a))
+    rows%r(1:2, a) = turned(c, s, rows%r(1:2, a))
+    rows%r_previous(1:2, a) = turned(c, s, rows%r_previous(1:2, a))
+    rows%r_older(1:2, a) = turned(c, s, rows%r_older(1:2, a))
   end subroutine take_reactions
+
+  !> The same in space: as global vectors, where the frame has turned.
+  pure subroutine take_in_space(old, b, rows, a)
+    type(rows_t), intent(in) :: old
+    integer, intent(in) :: b, a
+    type(rows_t), intent(inout) :: rows
+    real(wp) :: from(3, 3), turn(3, 3)
+    rows%r(:, a) = old%r(:, b)
+    rows%r_previous(:, a) = old%r_previous(:, b)
+    rows%r_older(:, a) = old%r_older(:, b)
+    if (.not. any(abs(rows%normal(:, a) - old%normal(:, b)) > zero)) return
+    from(:, 1) = old%normal(:, b)
+    from(:, 2:3) = old%tangent(:, :, b)
+    turn(1, :) = matmul(rows%normal(:, a), from)
+    turn(2:3, :) = matmul(transpose(rows%tangent(:, :, a)), from)
+    rows%r(:, a) = matmul(turn, old%r(:, b))
+    rows%r_previous(:, a) = matmul(turn, old%r_previous(:, b))
+    rows%r_older(:, a) = matmul(turn, old%r_older(:, b))
+  end subroutine take_in_space
 
   pure function turned(c, s, r) result(q)
     real(wp), intent(in) :: c, s, r(2)
@@ -309,7 +361,7 @@ contains
     end associate
     associate (a => rows%n)
       rows%offset(a) = from%offset(b)
-      rows%offset_t(a) = from%offset_t(b)
+      rows%offset_t(:, a) = from%offset_t(:, b)
       rows%is_rigid(a) = from%is_rigid(b)
       rows%is_twin(a) = from%is_twin(b)
       rows%is_active(a) = from%is_active(b)
@@ -354,78 +406,28 @@ contains
     end do
   end subroutine find_slots
 
-  !> (n, t) components of sum_k c_k x_k of row a [L for displacements]: relative to the first
-  !> obstacle point, so that a small difference keeps its digits. column: rows%point for x of
-  !> all nodes, rows%slot for x of the interface.
-  pure function relative_displacement(rows, a, column, x) result(u)
-    type(rows_t), intent(in) :: rows
-    integer, intent(in) :: a, column(:)
-    real(wp), intent(in), contiguous :: x(:, :)
-    real(wp) :: u(2), d(2)
-    integer :: k, reference
-    d = x(:, column(rows%first(a)))
-    if (rows%first(a + 1) > rows%first(a) + 1) then
-      reference = column(rows%first(a) + 1)
-      d = d - x(:, reference)
-      do k = rows%first(a) + 2, rows%first(a + 1) - 1
-        d = d + rows%weight(k)*(x(:, column(k)) - x(:, reference))
-      end do
-    end if
-    u(1) = rows%normal(1, a)*d(1) + rows%normal(2, a)*d(2)
-    u(2) = rows%normal(1, a)*d(2) - rows%normal(2, a)*d(1)
-  end function relative_displacement
-
-  !> Force on the contactor of row a [F], in x and y.
-  pure function row_force(rows, a) result(force)
-    type(rows_t), intent(in) :: rows
-    integer, intent(in) :: a
-    real(wp) :: force(2)
-    associate (n => rows%normal(:, a), r => rows%r(:, a))
-      force = n*r(1) + [-n(2), n(1)]*r(2)
-    end associate
-  end function row_force
-
-  !> f = f + factor H' r of row a.
-  pure subroutine add_row_force(rows, a, factor, column, f)
-    type(rows_t), intent(in) :: rows
-    integer, intent(in) :: a, column(:)
-    real(wp), intent(in) :: factor
-    real(wp), intent(inout) :: f(:, :)
-    real(wp) :: force(2)
-    integer :: k
-    force = factor*row_force(rows, a)
-    if (rows%kind(a) == row_guided) then   ! the guide of the wall takes what acts across
-      associate (node => column(rows%first(a)), wall => column(rows%first(a) + 1))
-        f(:, node) = f(:, node) + force
-        f(:, wall) = f(:, wall) - factor*rows%r(1, a)*rows%normal(:, a)
-      end associate
-      return
-    end if
-    do k = rows%first(a), rows%first(a + 1) - 1
-      f(:, column(k)) = f(:, column(k)) + rows%weight(k)*force
+  !> Tangents of all rows from their normals, where these have been restored.
+  pure subroutine set_tangents(rows)
+    type(rows_t), intent(inout) :: rows
+    integer :: a
+    if (rows%dim < 3) return
+    do a = 1, rows%n
+      rows%tangent(:, :, a) = tangents_of(rows%normal(:, a))
     end do
-  end subroutine add_row_force
+  end subroutine set_tangents
 
-  !> A row of H, component 1 (normal) or 2 (tangential) of row a: dofs of the interface and
-  !> their weights, of the first n.
-  pure subroutine row_of_h(rows, a, component, dof, weight, n)
-    type(rows_t), intent(in) :: rows
-    integer, intent(in) :: a, component
-    integer, intent(inout) :: dof(:)
-    real(wp), intent(inout) :: weight(:)
-    integer, intent(out) :: n
-    real(wp) :: e(2)
+  !> Tangents t1, t2 of a normal in space: with k the component of n that is largest, the first
+  !> of equal ones, t1 is the unit vector of the next axis less its part along n; t2 = n x t1.
+  pure function tangents_of(n) result(t)
+    real(wp), intent(in) :: n(3)
+    real(wp) :: t(3, 2)
     integer :: k
-    e = rows%normal(:, a)
-    if (component == 2) e = [-rows%normal(2, a), rows%normal(1, a)]
-    n = 0
-    do k = rows%first(a), rows%first(a + 1) - 1
-      if (.not. abs(rows%weight(k)) > zero) cycle
-      dof(n + 1:n + 2) = [2*rows%slot(k) - 1, 2*rows%slot(k)]
-      weight(n + 1:n + 2) = rows%weight(k)*e
-      n = n + 2
-    end do
-    if (component == 2 .and. rows%kind(a) == row_guided) n = 2   ! its guide holds the wall
-  end subroutine row_of_h
+    k = 1 + mod(maxloc(abs(n), dim=1), 3)
+    t(:, 1) = -n(k)*n
+    t(k, 1) = t(k, 1) + one
+    t(:, 1) = t(:, 1)/sqrt(t(1, 1)**2 + t(2, 1)**2 + t(3, 1)**2)
+    t(:, 2) = [n(2)*t(3, 1) - n(3)*t(2, 1), n(3)*t(1, 1) - n(1)*t(3, 1), &
+        n(1)*t(2, 1) - n(2)*t(1, 1)]
+  end function tangents_of
 
 end module contact_rows

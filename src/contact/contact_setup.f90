@@ -38,20 +38,21 @@ contains
     contact%acts = .false.
     allocate (contact%rows, contact%spare, contact%before)
     allocate (contact%next, contact%left, contact%work_rows)
-    call start_rows(contact%left)
-    call start_rows(contact%work_rows)
-    call start_rows(contact%rows)
-    call start_rows(contact%next)
-    call start_rows(contact%spare)
-    call start_rows(contact%before)
+    contact%dim = size(model%x, 1)
+    call start_rows(contact%left, dim=contact%dim)
+    call start_rows(contact%work_rows, dim=contact%dim)
+    call start_rows(contact%rows, dim=contact%dim)
+    call start_rows(contact%next, dim=contact%dim)
+    call start_rows(contact%spare, dim=contact%dim)
+    call start_rows(contact%before, dim=contact%dim)
     allocate (contact%interface_node(0), contact%slot(model%nodes))
-    allocate (contact%free(2, model%nodes), contact%u_end(2, model%nodes))
+    allocate (contact%free(contact%dim, model%nodes), contact%u_end(contact%dim, model%nodes))
     allocate (contact%carried(2, 0))
     contact%slot = 0
     contact%free = zero
     contact%u_end = zero
     contact%d = 1
-    if (any(model%contact%mu > zero) .or. any(model%wall%mu > zero)) contact%d = 2
+    if (any(model%contact%mu > zero) .or. any(model%wall%mu > zero)) contact%d = contact%dim
     do p = 1, size(model%contact)
       call make_pairing(trim(model%contact(p)%pairing), contact%pairing(p)%item)
       call set_card(model, model%contact(p), contact%pairing(p)%item)

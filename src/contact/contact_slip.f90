@@ -13,6 +13,7 @@ module contact_slip
   use cone_solver, only: solve_cone
   use cone_types, only: certificate_t, contact_stick
   use contact_friction, only: friction_t, friction_varies, friction_at
+  use contact_kinematics, only: tangential_length
   use contact_rule, only: level_velocity
   use contact_types, only: contact_t
   implicit none
@@ -88,7 +89,7 @@ contains
     integer :: k
     is_met = .true.
     time = slip_time(contact)
-    largest = maxval(abs(contact%work%u(2, :)), mask=contact%r(1, :) > zero)
+    largest = largest_slip(contact%d, contact%n, contact%r, contact%work%u)
     do k = 1, contact%n
       associate (mu => contact%mu(k), of_slip => contact%mu_law(k), law => &
           contact%pairing(contact%rows%key(1, contact%row_of(k)))%item%friction)
@@ -97,13 +98,24 @@ contains
         if (.not. contact%r(1, k) > zero) cycle
         of_slip = law%static
         if (contact%work%status(k) /= contact_stick) of_slip = friction_at(law, &
-            contact%work%u(2, k)/time)
+            tangential_length(contact%d, contact%work%u(:, k))/time)
         slope = law%decay*(of_slip - law%kinetic)*largest/time
         is_met = is_met .and. &
             abs(of_slip - mu) <= contact%cone%tolerance*max(share, slope)
       end associate
     end do
   end subroutine find_friction
+
+  !> The longest u_t of the contacts that push, r and u (d, n); negative where none does.
+  pure real(wp) function largest_slip(d, n, r, u) result(largest)
+    integer, intent(in) :: d, n
+    real(wp), intent(in) :: r(d, n), u(d, n)
+    integer :: k
+    largest = -huge(largest)
+    do k = 1, n
+      if (r(1, k) > zero) largest = max(largest, tangential_length(d, u(:, k)))
+    end do
+  end function largest_slip
 
   !> Coefficients of the next solve: where the last few changes lead (Anderson 1965). A row
   !> whose slip asks for less than mu has its answer below mu, as far as it goes by itself:

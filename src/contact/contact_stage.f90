@@ -7,12 +7,13 @@ module contact_stage
   use base_status, only: status_t, fail, failed, add_place, status_numerical
   use base_strings, only: to_text
   use cone_certificate, only: certify
-  use cone_types, only: certificate_t, contact_open, size_cone_work
+  use cone_types, only: certificate_t, contact_open, most_components, size_cone_work
   use contact_assemble, only: find_rows, add_missing_rows, count_rows
   use contact_condense, only: build_w
   use contact_monitor, only: check_listed
   use contact_purse, only: start_purses, open_purses, set_offsets, purse_is_short
-  use contact_rows, only: rows_t, relative_displacement, add_row_force
+  use contact_kinematics, only: relative_displacement, add_row_force
+  use contact_rows, only: rows_t
   use contact_rule, only: level_position, level_velocity
   use contact_slip, only: solve_friction
   use contact_types, only: contact_t, tally_t
@@ -28,8 +29,8 @@ module contact_stage
 
 contains
 
-  !> Reactions for the free motion x_free (2, m) of the interface from displacement u and
-  !> velocity v (2, nodes) at the start of the step; force (2, m) = H' r as A x = b + H' r
+  !> Reactions for the free motion x_free (dim, m) of the interface from displacement u and
+  !> velocity v (dim, nodes) at the start of the step; force (dim, m) = H' r as A x = b + H' r
   !> takes it. largest [F L]: of the terms of the energy ledger so far. acting is false when
   !> nothing touches, and then force is zero.
   subroutine solve_contact(model, contact, u, v, x_free, largest, force, acting, status)
@@ -65,16 +66,19 @@ contains
     if (acting) call count_rows(contact)
   end subroutine solve_contact
 
-  !> Assertions on the vectors of a stage: whole (2, nodes), and two of the interface (2, m).
+  !> Assertions on the vectors of a stage: whole (dim, nodes), two of the interface (dim, m).
   subroutine check_interface(contact, whole, first, second, place)
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: whole(:, :), first(:, :), second(:, :)
     character(*), intent(in) :: place
     integer :: m
     m = size(contact%interface_node)
-    call assert_shape(shape(whole), [2, size(contact%slot)], place, 'the motion of all nodes')
-    call assert_shape(shape(first), [2, m], place, 'the first vector of the interface')
-    call assert_shape(shape(second), [2, m], place, 'the second vector of the interface')
+    call assert_shape(shape(whole), [contact%dim, size(contact%slot)], place, &
+        'the motion of all nodes')
+    call assert_shape(shape(first), [contact%dim, m], place, &
+        'the first vector of the interface')
+    call assert_shape(shape(second), [contact%dim, m], place, &
+        'the second vector of the interface')
     call assert(count(contact%slot > 0) == m, place, 'every interface node has a slot')
   end subroutine check_interface
 
@@ -100,7 +104,7 @@ contains
     call find_q(contact, x_free)
     if (all(contact%q(1, :) >= zero)) return
     acting = .true.
-    contact%largest_velocity = largest_component(size(v, 2), v)
+    contact%largest_velocity = largest_component(size(v), v)
     call start_reactions(contact, .true.)
     call find_reactions(model, contact, force, certificate, status)
     call watch_alternation(contact)
@@ -147,12 +151,13 @@ contains
   pure subroutine find_q(contact, x_free)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: x_free(:, :)
-    real(wp) :: u(2)
+    real(wp) :: u(most_components)
     integer :: k
     do k = 1, contact%n
       u = relative_displacement(contact%rows, contact%row_of(k), contact%rows%slot, x_free)
       contact%q(1, k) = contact%rows%offset(contact%row_of(k)) + u(1)
-      if (contact%d > 1) contact%q(2, k) = contact%rows%offset_t(contact%row_of(k)) + u(2)
+      if (contact%d > 1) contact%q(2, k) = contact%rows%offset_t(1, contact%row_of(k)) + u(2)
+      if (contact%d > 2) contact%q(3, k) = contact%rows%offset_t(2, contact%row_of(k)) + u(3)
     end do
   end subroutine find_q
 
@@ -167,13 +172,17 @@ contains
 
   pure subroutine shift(rows)
     type(rows_t), intent(inout) :: rows
-    associate (n => rows%n)
-      rows%r_older(:, :n) = rows%r_previous(:, :n)
-      rows%r_previous(:, :n) = rows%r(:, :n)
-      rows%r(:, :n) = zero
-      rows%status(:n) = contact_open
-    end associate
+    call shift_values(rows%dim*rows%n, rows%r, rows%r_previous, rows%r_older)
+    rows%status(:rows%n) = contact_open
   end subroutine shift
+
+  pure subroutine shift_values(n, r, previous, older)
+    integer, intent(in) :: n
+    real(wp), intent(inout) :: r(n), previous(n), older(n)
+    older = previous
+    previous = r
+    r = zero
+  end subroutine shift_values
 
   !> The start: in the first solve of a step the last reactions, or those before them where
   !> forces alternate; then those of the solve before.
@@ -240,9 +249,9 @@ contains
     end associate
   end subroutine find_reactions
 
-  !> Corrects the reactions where W is known to fewer digits than the motion du (2, nodes),
+  !> Corrects the reactions where W is known to fewer digits than the motion du (dim, nodes),
   !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the
-  !> new reactions, more the change of it; both (2, m) [F]. done: they meet the certificate
+  !> new reactions, more the change of it; both (dim, m) [F]. done: they meet the certificate
   !> as they are.
   subroutine correct_contact(model, contact, du, force, more, done, acting, status)
     type(model_t), intent(in) :: model
@@ -281,16 +290,18 @@ contains
     acting = acting .or. any(contact%r(1, :) > zero)
   end subroutine correct_contact
 
-  !> u = H dU + offsets of all rows for the motion du (2, nodes).
+  !> u = H dU + offsets of all rows for the motion du (dim, nodes).
   pure subroutine find_displacements(contact, du)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: du(:, :)
+    real(wp) :: u(most_components)
     integer :: a
     associate (rows => contact%rows)
       do a = 1, rows%n
-        rows%u(:, a) = relative_displacement(rows, a, rows%point, du)
-        rows%u(1, a) = rows%offset(a) + rows%u(1, a)
-        rows%u(2, a) = rows%offset_t(a) + rows%u(2, a)
+        u = relative_displacement(rows, a, rows%point, du)
+        rows%u(1, a) = rows%offset(a) + u(1)
+        rows%u(2, a) = rows%offset_t(1, a) + u(2)
+        if (rows%dim == 3) rows%u(3, a) = rows%offset_t(2, a) + u(3)
       end do
     end associate
   end subroutine find_displacements
@@ -326,7 +337,7 @@ contains
     end associate
   end function velocity_terms
 
-  !> After the step of motion du to displacement u (2, nodes): u of every row, the certificate
+  !> After the step of motion du to displacement u (dim, nodes): u of every row, the certificate
   !> of the reactions for it (to the round-off of gaps and motions, which nearly cancel at a
   !> touch), true overlaps. Fails on what a scene must not do in silence.
   subroutine evaluate_contact(model, contact, u, du, cycle, acting, status)
@@ -355,7 +366,7 @@ contains
         call find_gaps(contact, du)
   end subroutine evaluate_contact
 
-  !> The certificate of a stage whose unknown x (2, nodes) is not the motion du of the step.
+  !> The certificate of a stage whose unknown x (dim, nodes) is not the motion du of the step.
   subroutine certify_stage(contact, x, du, acting)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: x(:, :), du(:, :)
@@ -383,11 +394,13 @@ contains
   pure subroutine find_gaps(contact, du)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: du(:, :)
+    real(wp) :: u(most_components)
     integer :: a
     associate (rows => contact%rows)
       do a = 1, rows%n
-        rows%u(:, a) = relative_displacement(rows, a, rows%point, du)
-        rows%u(1, a) = rows%gap(a) + rows%u(1, a)
+        u = relative_displacement(rows, a, rows%point, du)
+        u(1) = rows%gap(a) + u(1)
+        rows%u(:, a) = u(:rows%dim)
       end do
     end associate
   end subroutine find_gaps

@@ -49,17 +49,18 @@ module contact_types
     logical :: was_on_velocities = .false.        !< the last stage: offsets, active rows
     logical :: friction_varies = .false.          !< with the speed of slip, in some pairing
     real(wp) :: step_length = zero                !< [T]
+    integer :: dim = 2                            !< of the bodies
     integer :: d = 2                              !< components per contact: 1 without friction
     integer, allocatable :: interface_node(:)
     integer, allocatable :: slot(:)               !< (nodes) among interface nodes, 0 = not
-    integer, allocatable :: constrained(:)        !< dofs of the interface, of 2m, that are held
+    integer, allocatable :: constrained(:)        !< dofs of the interface, dim m, that are held
     integer, allocatable :: carried(:, :)         !< (2, *) node, interface node it follows
-    !> (2, nodes) motion of the free step and displacement at the end of the step with
+    !> (dim, nodes) motion of the free step and displacement at the end of the step with
     !> contact, right at interface nodes only [L]
     real(wp), allocatable :: free(:, :), u_end(:, :)
-    real(wp), allocatable :: x_end(:, :)          !< (2, m) motion of the interface [L]
-    real(wp), allocatable :: placed(:, :)         !< (2, nodes) on velocities: contact_velocity
-    !> (2m, 2m) S^-1 of the interface, constrained dofs cleared [L/F]
+    real(wp), allocatable :: x_end(:, :)          !< (dim, m) motion of the interface [L]
+    real(wp), allocatable :: placed(:, :)         !< (dim, nodes): contact_velocity
+    !> (dim m, dim m) S^-1 of the interface, constrained dofs cleared [L/F]
     real(wp), allocatable :: schur_inverse(:, :)
     ! The condensed problem: rows that are not rigid.
     integer :: n = 0
@@ -72,7 +73,7 @@ module contact_types
     !> (*, d n) dofs of the interface that a row of H takes, their weights, how many
     integer, allocatable :: h_dof(:, :), h_size(:)
     real(wp), allocatable :: h_weight(:, :)
-    real(wp), allocatable :: column(:)            !< (2m) of S^-1 H' [L/F]
+    real(wp), allocatable :: column(:)            !< (dim m) of S^-1 H' [L/F]
     !> W is that of rows and schur_inverse: so after build_w, until one of them is replaced
     !> (use_rows, constrain_interface, a restart)
     logical :: w_is_current = .false.

@@ -5,8 +5,10 @@
 module contact_velocity
   use base_kinds, only: wp, zero
   use base_status, only: status_t, fail, failed, status_numerical
+  use cone_types, only: most_components
   use contact_assemble, only: find_rows, take_spare
-  use contact_rows, only: rows_t, relative_displacement
+  use contact_kinematics, only: relative_displacement
+  use contact_rows, only: rows_t
   use contact_types, only: contact_t
   use model_data, only: model_t, node_name
   implicit none
@@ -16,8 +18,9 @@ module contact_velocity
 
 contains
 
-  !> Rows at displacement u and velocity v (2, nodes) for the free motion x_free (2, m), which
-  !> of them act, and their offsets [L]. Fails where a node has sunk in beyond what is listed.
+  !> Rows at displacement u and velocity v (dim, nodes) for the free motion x_free (dim, m),
+  !> which of them act, and their offsets [L]. Fails where a node has sunk in beyond what is
+  !> listed.
   subroutine find_velocity_rows(model, contact, u, v, x_free, status)
     type(model_t), intent(in) :: model
     type(contact_t), intent(inout) :: contact
@@ -88,12 +91,12 @@ contains
     end do
   end subroutine place_on_boundary
 
-  !> The gaps of nodes where they are; sunk (2, nodes) is how they lie from where they were
+  !> The gaps of nodes where they are; sunk (dim, nodes) is how they lie from where they were
   !> placed [L].
   pure subroutine correct_gaps(sunk, rows)
     real(wp), intent(in), contiguous :: sunk(:, :)
     type(rows_t), intent(inout) :: rows
-    real(wp) :: d(2)
+    real(wp) :: d(most_components)
     integer :: a
     do a = 1, rows%n
       d = relative_displacement(rows, a, rows%point, sunk)
@@ -107,7 +110,7 @@ contains
     type(rows_t), intent(in) :: rows
     integer, intent(in) :: a
     real(wp), intent(in), contiguous :: v(:, :)
-    real(wp) :: velocity(2)
+    real(wp) :: velocity(most_components)
     velocity = relative_displacement(rows, a, rows%point, v)
     touches = rows%gap(a) + rows%allowance(a) + contact%rule%lead*velocity(1) &
         <= contact%penetration_tolerance*rows%length(a)
@@ -120,14 +123,14 @@ contains
     integer, intent(in) :: a
     logical, intent(in) :: is_active
     real(wp), intent(in), contiguous :: v(:, :)
-    real(wp) :: velocity(2), e, e_n
+    real(wp) :: velocity(most_components), e, e_n
     associate (rows => contact%rows, rule => contact%rule)
       velocity = relative_displacement(rows, a, rows%point, v)
       e = contact%pairing(rows%key(1, a))%item%restitution
       e_n = e
       if (velocity(1) > zero) e_n = max(e, rule%safe_share)
       rows%offset(a) = (rule%now*e_n - rule%before)*velocity(1)
-      rows%offset_t(a) = (rule%now*e - rule%before)*velocity(2)
+      rows%offset_t(:, a) = (rule%now*e - rule%before)*velocity(2:rows%dim)
       if (is_active .neqv. rows%is_active(a)) contact%w_is_current = .false.
       rows%is_active(a) = is_active
       contact%was_on_velocities = .true.
@@ -145,11 +148,11 @@ contains
   end subroutine activate_all
 
   !> Restitution on positions (doc/theory.md): g1 + e (gap before) >= 0 with the gap before =
-  !> g0 - lead v_n, v (2, nodes) the velocity of the last step.
+  !> g0 - lead v_n, v (dim, nodes) the velocity of the last step.
   pure subroutine add_restitution(contact, v)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: v(:, :)
-    real(wp) :: velocity(2)
+    real(wp) :: velocity(most_components)
     integer :: a
     associate (rows => contact%rows)
       do a = 1, rows%n
@@ -162,14 +165,14 @@ contains
     end associate
   end subroutine add_restitution
 
-  !> Of velocities (2, n) [L/T].
+  !> Of n components of velocities [L/T].
   pure real(wp) function largest_component(n, v) result(largest)
     integer, intent(in) :: n
-    real(wp), intent(in) :: v(2, n)
+    real(wp), intent(in) :: v(n)
     integer :: i
     largest = zero
     do i = 1, n
-      largest = max(largest, abs(v(1, i)), abs(v(2, i)))
+      largest = max(largest, abs(v(i)))
     end do
   end function largest_component
 

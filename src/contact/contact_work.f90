@@ -4,9 +4,11 @@ module contact_work
   use base_checks, only: checks_on, assert_shape
   use base_kinds, only: wp, zero, one
   use cone_certificate, only: bipotential_residual
-  use cone_types, only: certificate_t, contact_open, contact_stick
+  use cone_types, only: certificate_t, contact_open, contact_stick, most_components
+  use contact_kinematics, only: relative_displacement, row_force, add_row_force, &
+      tangential_length, tangential_product
   use contact_ramp, only: ramp_push
-  use contact_rows, only: rows_t, relative_displacement, row_force, add_row_force, row_mortar
+  use contact_rows, only: rows_t, row_mortar
   use contact_pairing, only: node_forces_t, pair_sums_t, no_gap
   use contact_surface, only: surface_t
   use contact_types, only: contact_t
@@ -28,7 +30,7 @@ module contact_work
 contains
 
   !> Forces, impulses and works of the step just done. The bodies receive the mean reaction
-  !> weight_before r0 + weight_now r1 over a step of length h and of motion du (2, nodes);
+  !> weight_before r0 + weight_now r1 over a step of length h and of motion du (dim, nodes);
   !> du_before: the motion on which r0 does work, where it is another one.
   subroutine add_contact_step(contact, weight_before, weight_now, h, du, work, du_before)
     type(contact_t), intent(inout) :: contact
@@ -37,8 +39,8 @@ contains
     type(contact_work_t), intent(inout) :: work
     real(wp), intent(in), optional, contiguous :: du_before(:, :)
     integer :: a, p
-    if (checks_on) call assert_shape(shape(du), [2, size(contact%slot)], 'add_contact_step', &
-        'du')
+    if (checks_on) call assert_shape(shape(du), [contact%dim, size(contact%slot)], &
+        'add_contact_step', 'du')
     contact%idle_steps = min(2, contact%idle_steps + 1)
     do p = 1, size(contact%pairing)
       associate (pairing => contact%pairing(p)%item)
@@ -76,7 +78,7 @@ contains
   end subroutine add_contact_step
 
   !> Work of the forces of an earlier stage of the step, those of the rows `before`, on a
-  !> motion (2, nodes) of their own.
+  !> motion (dim, nodes) of their own.
   subroutine add_stage_work(contact, motion, work)
     type(contact_t), intent(inout) :: contact
     real(wp), intent(in), contiguous :: motion(:, :)
@@ -140,21 +142,23 @@ contains
     integer, intent(in) :: a
     type(surface_t), intent(in) :: side(2)
     type(node_forces_t), intent(inout) :: nodal
-    real(wp) :: force(2), weight
+    real(wp) :: force(most_components), weight, slip
     integer :: k, at, s
     force = row_force(rows, a)
+    slip = rows%u(2, a)
+    if (rows%dim == 3) slip = tangential_length(3, rows%u(:, a))
     do k = rows%first(a), rows%first(a + 1) - 1
       s = rows%key(2, a)
       if (k > rows%first(a) .and. size(side(2)%node) > 0) s = 3 - s
       if (side(s)%index(rows%point(k)) == 0) s = 3 - s   ! a second node of the contactor
       at = nodal%first(s) + side(s)%index(rows%point(k))
       if (.not. abs(rows%weight(k)) > zero) cycle
-      nodal%force(:, at) = nodal%force(:, at) + rows%weight(k)*force
+      nodal%force(:, at) = nodal%force(:, at) + rows%weight(k)*force(:rows%dim)
       weight = abs(rows%weight(k))
       if (rows%kind(a) == row_mortar) weight = &
           merge(rows%weight(k), -rows%weight(k), s == rows%key(2, a))
       nodal%normal(at) = nodal%normal(at) + weight*rows%r(1, a)
-      if (abs(rows%u(2, a)) > abs(nodal%slip(at))) nodal%slip(at) = rows%u(2, a)
+      if (abs(slip) > abs(nodal%slip(at))) nodal%slip(at) = slip
       nodal%status(at) = max(nodal%status(at), rows%status(a))
     end do
   end subroutine add_nodal
@@ -164,7 +168,7 @@ contains
     type(rows_t), intent(in) :: rows
     integer, intent(in) :: a
     type(pair_sums_t), intent(inout) :: sums
-    real(wp) :: force(2)
+    real(wp) :: force(most_components)
     if (rows%status(a) == contact_open) return
     force = row_force(rows, a)
     associate (side => rows%key(2, a))
@@ -172,7 +176,7 @@ contains
       sums%force(:, 3 - side) = sums%force(:, 3 - side) - force
     end associate
     sums%normal_force = sums%normal_force + rows%r(1, a)
-    sums%tangential_force = sums%tangential_force + abs(rows%r(2, a))
+    sums%tangential_force = sums%tangential_force + tangential_length(rows%dim, rows%r(:, a))
     sums%n_active = sums%n_active + 1
     if (rows%status(a) == contact_stick) then
       sums%n_stick = sums%n_stick + 1
@@ -190,7 +194,7 @@ contains
     real(wp) :: friction, normal
     if (contact%rows%status(a) == contact_open) return
     associate (rows => contact%rows, d => contact%d)
-      friction = rows%mu(a)*rows%r(1, a)*abs(rows%u(2, a))
+      friction = rows%mu(a)*rows%r(1, a)*tangential_length(rows%dim, rows%u(:, a))
       normal = rows%r(1, a)*rows%offset(a)
       associate (pairing => contact%pairing(rows%key(1, a))%item)
         pairing%sums%friction_work = pairing%sums%friction_work + friction
@@ -214,9 +218,10 @@ contains
     real(wp), intent(in) :: weight
     real(wp), intent(in), contiguous :: du(:, :)
     type(contact_work_t), intent(inout) :: work
-    real(wp) :: u(2)
+    real(wp) :: u(most_components), slip_work
     if (rows%status(a) == contact_open) return
     u = relative_displacement(rows, a, rows%point, du)
+    slip_work = weight*tangential_product(rows%dim, rows%r(:, a), u)
     associate (pairing => contact%pairing(rows%key(1, a))%item)
       if (allocated(pairing%ramp)) then
         u(1) = u(1) - ramp_push(pairing%ramp, rows%key(3, a))
@@ -224,10 +229,10 @@ contains
       end if
     end associate
     associate (sums => contact%pairing(rows%key(1, a))%item%sums)
-      sums%friction_work = sums%friction_work - weight*rows%r(2, a)*u(2)
+      sums%friction_work = sums%friction_work - slip_work
       sums%normal_work = sums%normal_work - weight*rows%r(1, a)*u(1)
     end associate
-    work%friction = work%friction - weight*rows%r(2, a)*u(2)
+    work%friction = work%friction - slip_work
     work%normal = work%normal - weight*rows%r(1, a)*u(1)
   end subroutine add_weighted_work
 
@@ -243,7 +248,7 @@ contains
     end do
   end subroutine start_row
 
-  !> f = f - factor H' r of all rows, f (2, nodes).
+  !> f = f - factor H' r of all rows, f (dim, nodes).
   pure subroutine subtract_contact_force(contact, factor, f)
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: factor

@@ -296,7 +296,7 @@ contains
           associate (to => all_nodes(:, c%node(k)))
             select case (field%name)
             case ('FORCE')
-              to(1:2) = to(1:2) + c%force(:, k)
+              to(:size(c%force, 1)) = to(:size(c%force, 1)) + c%force(:, k)
             case ('PRESSURE')
               if (c%area(k) > zero) to = to + c%normal(k)/c%area(k)
             case ('GAP')

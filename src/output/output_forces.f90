@@ -58,7 +58,7 @@ contains
     type(real_writer_t), intent(in) :: writer
     class(pairing_t), intent(in) :: pairing
     integer, intent(in) :: side
-    real(wp) :: mean(size(pairing%sums%force, 1))
+    real(wp) :: mean(3)
     associate (s => pairing%sums)
       mean = half*(s%force(:, side) + s%force_before(:, side))
       call add_vector(file, writer, s%force(:, side))
@@ -128,7 +128,7 @@ contains
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
-    real(wp) :: pressure, mean(model%dim)
+    real(wp) :: pressure, mean(size(model%x, 1))
     integer :: p, k
     do p = 1, size(contact%pairing)
       if (contact%pairing(p)%item%is_wall) cycle

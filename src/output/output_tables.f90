@@ -184,8 +184,11 @@ contains
     real(wp), intent(in) :: v(:)
     call add_number(file, writer, v(1))
     call add_number(file, writer, v(2))
-    if (size(v) == 2) call add_number(file, writer, zero)
-    if (size(v) == 3) call add_number(file, writer, v(3))
+    if (size(v) == 3) then
+      call add_number(file, writer, v(3))
+    else
+      call add_number(file, writer, zero)
+    end if
   end subroutine add_vector
 
   !> Closes all tables with the way the run ended.
