@@ -106,18 +106,19 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: v(:, :)
     real(wp), intent(inout) :: f(:)
-    real(wp) :: row(size(f))
-    integer :: k
+    real(wp) :: row(3)
+    integer :: k, d
     associate (mass => system%damping%mass, graph => system%graph)
+      d = size(f)
       row = zero
       if (system%mass_is_diagonal) then
-        row = mass(:, i)*v(:, i)
+        row(:d) = mass(:, i)*v(:, i)
       else
         do k = graph%first(i), graph%first(i + 1) - 1
-          row = row + mass(:, k)*v(:, graph%column(k))
+          row(:d) = row(:d) + mass(:, k)*v(:, graph%column(k))
         end do
       end if
-      f = f - factor*row
+      f = f - factor*row(:d)
     end associate
   end subroutine subtract_row
 

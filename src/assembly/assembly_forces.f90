@@ -4,6 +4,7 @@
 !> step for a stiff bar in flight); relative displacements of an element do not.
 module assembly_forces
   use base_kinds, only: wp, zero, one, half
+  use element_base, only: most_nodes
   use assembly_blocks, only: element_block_t
   use assembly_system, only: system_t
   use model_data, only: model_t, curve_value
@@ -115,21 +116,24 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(dim, n)
     real(wp), intent(inout) :: f(dim, n)
-    real(wp), dimension(dim, nodes - 1) :: d, g
-    real(wp) :: total(dim)
-    integer :: e, i
+    real(wp), dimension(3*most_nodes) :: d, g     ! of a size that needs no memory anew
+    real(wp) :: total
+    integer :: e, i, c, m
+    m = dim*(nodes - 1)
     do e = 1, elements
       do i = 2, nodes
-        d(:, i - 1) = factor*(u(:, node(i, e)) - u(:, node(1, e)))
+        do c = 1, dim
+          d(dim*(i - 2) + c) = factor*(u(c, node(i, e)) - u(c, node(1, e)))
+        end do
       end do
-      call multiply(dim*(nodes - 1), k(:, :, e), d, g)
-      total = g(:, 1)
-      do i = 2, nodes - 1
-        total = total + g(:, i)
-      end do
-      f(:, node(1, e)) = f(:, node(1, e)) + total
-      do i = 2, nodes
-        f(:, node(i, e)) = f(:, node(i, e)) - g(:, i - 1)
+      call multiply(m, k(:, :, e), d, g)
+      do c = 1, dim
+        total = zero
+        do i = 2, nodes
+          total = total + g(dim*(i - 2) + c)
+          f(c, node(i, e)) = f(c, node(i, e)) - g(dim*(i - 2) + c)
+        end do
+        f(c, node(1, e)) = f(c, node(1, e)) + total
       end do
     end do
   end subroutine any_nodes
@@ -243,16 +247,16 @@ contains
   pure real(wp) function product_of_any(node, k, u) result(total)
     integer, intent(in) :: node(:)
     real(wp), intent(in) :: k(:, :), u(:, :)
-    real(wp) :: d(size(k, 1)), row
+    real(wp) :: d(3*most_nodes), row
     integer :: i, j, m
     m = size(u, 1)
     do i = 2, size(node)
       d(m*(i - 2) + 1:m*(i - 1)) = u(:, node(i)) - u(:, node(1))
     end do
     total = zero
-    do i = 1, size(d)
+    do i = 1, size(k, 1)
       row = k(1, i)*d(1)
-      do j = 2, size(d)
+      do j = 2, size(k, 1)
         row = row + k(j, i)*d(j)
       end do
       total = total + d(i)*row

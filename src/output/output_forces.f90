@@ -128,7 +128,7 @@ contains
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: time
     type(status_t), intent(inout) :: status
-    real(wp) :: pressure, mean(size(model%x, 1))
+    real(wp) :: pressure, mean(3)
     integer :: p, k
     do p = 1, size(contact%pairing)
       if (contact%pairing(p)%item%is_wall) cycle
@@ -143,9 +143,9 @@ contains
           call add_count(file, contact%pairing(p)%item%id)
           call add_count(file, c%side(k))
           call add_count(file, model%node_id(c%node(k)))
-          mean = half*(c%force(:, k) + c%before(:, k))
+          mean(:contact%dim) = half*(c%force(:, k) + c%before(:, k))
           call add_vector(file, writer, c%force(:, k))
-          call add_vector(file, writer, mean)
+          call add_vector(file, writer, mean(:contact%dim))
           call add_numbers(file, writer, [pressure, c%gap(k), c%slip(k)])
           call add_count(file, c%status(k))
           call end_row(file)

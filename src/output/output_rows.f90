@@ -49,7 +49,7 @@ contains
     type(state_t), intent(in) :: state
     type(ledger_t), intent(in) :: ledger
     type(status_t), intent(inout) :: status
-    real(wp) :: velocity(model%dim)
+    real(wp) :: velocity(3)
     integer :: p
     do p = 1, size(model%part)
       call begin_row(file, status)
@@ -60,8 +60,8 @@ contains
       call add_vector(file, writer, ledger%part_momentum(:, p))
       velocity = zero    ! of a rigid part that has joined another one
       if (ledger%part_mass(p) > zero) &
-          velocity = ledger%part_momentum(:, p)/ledger%part_mass(p)
-      call add_vector(file, writer, velocity)
+          velocity(:model%dim) = ledger%part_momentum(:, p)/ledger%part_mass(p)
+      call add_vector(file, writer, velocity(:model%dim))
       call end_row(file)
     end do
   end subroutine write_matsum
@@ -73,20 +73,21 @@ contains
     type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp), dimension(model%dim) :: mean, place
-    integer :: k, i
+    real(wp), dimension(3) :: mean, place
+    integer :: k, i, d
+    d = model%dim
     do k = 1, size(model%requests%history_node)
       i = model%requests%history_node(k)
-      mean = state%v(:, i)
-      if (state%cycle > 0) mean = state%du(:, i)/state%h_last
+      mean(:d) = state%v(:, i)
+      if (state%cycle > 0) mean(:d) = state%du(:, i)/state%h_last
       call begin_row(file, status)
       call add_number(file, writer, state%time)
       call add_count(file, model%node_id(i))
       call add_vector(file, writer, state%u(:, i))
       call add_vector(file, writer, state%v(:, i))
-      call add_vector(file, writer, mean)
-      place = model%x(:, i) + state%u(:, i)
-      call add_vector(file, writer, place)
+      call add_vector(file, writer, mean(:d))
+      place(:d) = model%x(:, i) + state%u(:, i)
+      call add_vector(file, writer, place(:d))
       if (allocated(state%a)) call add_vector(file, writer, state%a(:, i))
       call end_row(file)
     end do
@@ -126,19 +127,20 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: stress(3), x(size(model%x, 1), most_nodes), u(size(model%x, 1), most_nodes)
+    real(wp) :: stress(3), x(3, most_nodes), u(3, most_nodes)
     integer :: k, e, n, i
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
       n = model%mesh%count_of(e)
       do i = 1, n
-        x(:, i) = model%x(:, model%mesh%node_of(i, e))
-        u(:, i) = state%u(:, model%mesh%node_of(i, e))
+        x(:model%dim, i) = model%x(:, model%mesh%node_of(i, e))
+        u(:model%dim, i) = state%u(:, model%mesh%node_of(i, e))
       end do
       associate (part => model%part(model%mesh%part(e)))
         associate (material => model%material(part%material)%item)
           stress = matmul(material%moduli(part%plane), &
-              model%mesh%kind(model%mesh%type(e))%item%mean_strain(x(:, :n), u(:, :n)))
+              model%mesh%kind(model%mesh%type(e))%item%mean_strain(x(:model%dim, :n), &
+              u(:model%dim, :n)))
           call begin_row(file, status)
           call add_number(file, writer, state%time)
           call add_count(file, model%mesh%id(e))

@@ -281,7 +281,12 @@ contains
     integer, intent(in) :: stage
     type(status_t), intent(inout) :: status
     real(wp) :: total, largest
-    call sum_squares(size(run%x, 1), size(run%x, 2), run%x, total, largest)
+    if (run%system%dim == 2) then
+      call sum_squares(run%system%n, run%x, total, largest)
+    else
+      total = sum(run%x**2)
+      largest = maxval(sum(run%x**2, dim=1))
+    end if
     if (run%scheme%stage(stage)%moves) run%largest_motion = sqrt(largest)
     if (total <= huge(one)) return
     run%broken = .true.
@@ -290,28 +295,20 @@ contains
         hint='check units, densities and the time step')
   end subroutine check_finite
 
-  !> Sum and maximum of the squared lengths; a NaN stays in the sum.
-  pure subroutine sum_squares(dim, n, x, total, largest)
-    integer, intent(in) :: dim, n
-    real(wp), intent(in) :: x(dim, n)
+  !> Sum and maximum of the squared lengths, in the plane; a NaN stays in the sum.
+  pure subroutine sum_squares(n, x, total, largest)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: x(2, n)
     real(wp), intent(out) :: total, largest
     real(wp) :: a
     integer :: i
     total = zero
     largest = zero
-    if (dim == 2) then
-      do i = 1, n
-        a = x(1, i)**2 + x(2, i)**2
-        total = total + a
-        largest = merge(a, largest, a > largest)
-      end do
-    else
-      do i = 1, n
-        a = sum(x(:, i)**2)
-        total = total + a
-        largest = merge(a, largest, a > largest)
-      end do
-    end if
+    do i = 1, n
+      a = x(1, i)**2 + x(2, i)**2
+      total = total + a
+      largest = merge(a, largest, a > largest)
+    end do
   end subroutine sum_squares
 
   !> Works of the step into the ledger.

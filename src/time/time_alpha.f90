@@ -208,14 +208,14 @@ contains
     integer, intent(in) :: dim, n
     real(wp), intent(in) :: weight(3), q
     real(wp), intent(in), dimension(dim, n) :: a, da, du, m_da, after, before
-    real(wp) :: total(dim)
+    real(wp) :: total(3)
     integer :: i
     total = zero
     do i = 1, n
-      total = total + (m_da(:, i)*(weight(1)*a(:, i) + weight(2)*da(:, i) &
+      total(:dim) = total(:dim) + (m_da(:, i)*(weight(1)*a(:, i) + weight(2)*da(:, i) &
           - weight(3)*du(:, i)) + q*du(:, i)*(after(:, i) - before(:, i)))
     end do
-    terms = sum(total)
+    terms = sum(total(:dim))
   end function all_terms
 
   !> x = U1 - U0, or D + beta h^2 A1 with A1 given or from V1.

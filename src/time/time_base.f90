@@ -159,16 +159,16 @@ contains
   pure real(wp) function mass_product(system, x, y)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), y(:, :)
-    real(wp) :: row(system%dim)
+    real(wp) :: row(3)
     integer :: d, i, k
     mass_product = zero
     do i = 1, system%n
       if (system%mass_is_diagonal) then
-        row = system%lumped(i)*y(:, i)
+        row(:system%dim) = system%lumped(i)*y(:, i)
       else
         row = zero
         do k = system%graph%first(i), system%graph%first(i + 1) - 1
-          row = row + system%mass(k)*y(:, system%graph%column(k))
+          row(:system%dim) = row(:system%dim) + system%mass(k)*y(:, system%graph%column(k))
         end do
       end if
       do d = 1, system%dim

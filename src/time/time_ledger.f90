@@ -131,11 +131,11 @@ contains
     ledger%angular = zero
     do i = 1, model%mesh_nodes
       call add_moment(model%x(:, i), ledger%mv(:, i), ledger%angular)
-      if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v(:, i), i)
+      if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v, i)
     end do
     do k = 1, size(ledger%share)
       i = ledger%shared(1, k)
-      call add_node(ledger, ledger%shared(2, k), ledger%share(k), state%v(:, i), i)
+      call add_node(ledger, ledger%shared(2, k), ledger%share(k), state%v, i)
     end do
     if (allocated(model%rigid)) call add_rigid_parts(model, state, ledger)
     ledger%momentum = zero
@@ -167,7 +167,7 @@ contains
       associate (i => model%wall(k)%node)
         if (i == 0) cycle
         ledger%momentum(:model%dim) = ledger%momentum(:model%dim) + ledger%mv(:, i)
-        ledger%kinetic = ledger%kinetic + half*inner(state%v(:, i), ledger%mv(:, i))
+        ledger%kinetic = ledger%kinetic + half*dot_product(state%v(:, i), ledger%mv(:, i))
       end associate
     end do
   end subroutine add_walls
@@ -206,19 +206,21 @@ contains
   pure subroutine add_node(ledger, part, share, v, i)
     type(ledger_t), intent(inout) :: ledger
     integer, intent(in) :: part, i
-    real(wp), intent(in) :: share, v(:)
-    real(wp) :: p(size(v))
-    p = share*ledger%mv(:, i)
-    ledger%part_kinetic(part) = ledger%part_kinetic(part) + half*inner(v, p)
-    ledger%part_momentum(:, part) = ledger%part_momentum(:, part) + p
+    real(wp), intent(in) :: share
+    real(wp), intent(in), contiguous :: v(:, :)
+    real(wp) :: p(3), energy
+    p(1) = share*ledger%mv(1, i)
+    p(2) = share*ledger%mv(2, i)
+    energy = v(1, i)*p(1) + v(2, i)*p(2)
+    ledger%part_momentum(1, part) = ledger%part_momentum(1, part) + p(1)
+    ledger%part_momentum(2, part) = ledger%part_momentum(2, part) + p(2)
+    if (size(v, 1) == 3) then
+      p(3) = share*ledger%mv(3, i)
+      energy = energy + v(3, i)*p(3)
+      ledger%part_momentum(3, part) = ledger%part_momentum(3, part) + p(3)
+    end if
+    ledger%part_kinetic(part) = ledger%part_kinetic(part) + half*energy
   end subroutine add_node
-
-  !> v.p, component by component.
-  pure real(wp) function inner(v, p)
-    real(wp), intent(in) :: v(:), p(:)
-    inner = v(1)*p(1) + v(2)*p(2)
-    if (size(v) == 3) inner = inner + v(3)*p(3)
-  end function inner
 
   !> Centres and rotors of rigid parts: their energies, and momenta about the origin, of the
   !> centres where they are.
@@ -230,7 +232,7 @@ contains
     associate (rigid => model%rigid)
       do p = 1, size(rigid%part)
         associate (c => rigid%centre(p), r => rigid%rotor(p), part => rigid%part(p))
-          call add_node(ledger, part, one, state%v(:, c), c)
+          call add_node(ledger, part, one, state%v, c)
           call add_moment(model%x(:, c) + state%u(:, c), ledger%mv(:, c), ledger%angular)
           ledger%angular(3) = ledger%angular(3) + rigid%radius(p)*ledger%mv(1, r)
           ledger%part_kinetic(part) = ledger%part_kinetic(part) &
