@@ -67,7 +67,7 @@ program ldlt_small
 
   ! Once per graph, once per matrix. The first failure wins, so one look at the end is enough.
   call make_solver(solver_options_t(engine='LDLT', order='NATURAL'), solver, status)
-  call solver%analyse(graph, last, status)
+  call solver%analyse(graph, size(b, 1), last, status)
   call solver%factor(graph, matrix, status)
   if (failed(status)) then
     print '(a)', status_text(status)

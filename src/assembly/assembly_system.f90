@@ -351,8 +351,8 @@ contains
     if (system%mass_is_diagonal) then
       call diagonal_product(system%dim, system%n, system%lumped, factor, x, y)
     else
-      call scalar_product(system%n, system%graph%first, system%graph%column, system%mass, &
-          factor, x, y)
+      call scalar_product(size(x, 1), system%n, system%graph%first, system%graph%column, &
+          system%mass, factor, x, y)
     end if
   end subroutine multiply_mass
 
@@ -380,8 +380,8 @@ contains
         q(:, i) = system%lumped(i)*y(:, i)
       end do
     else
-      call scalar_products(system%n, system%graph%first, system%graph%column, system%mass, &
-          x, y, p, q)
+      call scalar_products(size(x, 1), system%n, system%graph%first, system%graph%column, &
+          system%mass, x, y, p, q)
     end if
   end subroutine mass_products
 

@@ -8,6 +8,7 @@ module deck_keywords_own
   use deck_table, only: table_t, add_keyword, add_card, add_field
   use linalg_order, only: order_names
   use linalg_registry, only: engine_names
+  use linalg_solver, only: name_length
   implicit none
   private
   public :: add_own_keywords
@@ -17,7 +18,7 @@ contains
   !> Adds the rows of the own keywords.
   subroutine add_own_keywords(table)
     type(table_t), intent(inout) :: table
-    character(8), allocatable :: engines(:)
+    character(name_length), allocatable :: engines(:)
     call engine_names(engines)
     call add_keyword(table, 'BIPACT_TIME', 'time scheme', required=1, once=.true.)
     call add_card(table)
@@ -71,9 +72,10 @@ contains
     call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'ENGINE', 'W10 =AUTO '// &
-        choices([character(8) :: 'AUTO', engines]), 'factor')
+        choices([character(name_length) :: 'AUTO', engines]), 'factor')
     call add_field(table, 'ORDER', 'W10 =AUTO '// &
-        choices([character(8) :: 'AUTO', order_names]), 'elimination order; AUTO: fewest flops')
+        choices([character(name_length) :: 'AUTO', order_names]), &
+        'elimination order; AUTO: fewest flops')
     call add_field(table, 'SCHUR', 'W10 =AUTO |AUTO|YES|', 'contact dofs last')
     call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
     call add_field(table, 'CGTOL', 'R10 fixed')

@@ -13,6 +13,7 @@ module linalg_dense
 
   type, public :: dense_spd_t
     integer :: n = 0
+    integer :: lost = 0                 !< row of a lost pivot, 0 = none
     real(wp) :: scale = one             !< matrix = scale * L L'
     real(wp), allocatable :: l(:, :)    !< lower triangle of the Cholesky factor
   end type dense_spd_t
@@ -78,8 +79,9 @@ contains
     type(dense_spd_t), intent(inout) :: block
     type(status_t), intent(inout) :: status
     real(wp) :: largest
-    integer :: j, info
+    integer :: j
     block%n = size(block%l, 1)
+    block%lost = 0
     if (checks_on) call assert_shape(shape(block%l), [block%n, block%n], 'dense_factor', &
         'block%l')
     if (block%n == 0) return
@@ -91,9 +93,9 @@ contains
     if (largest > zero .and. largest <= huge(largest)) &
         block%scale = scale(one, exponent(largest))
     block%l = block%l/block%scale
-    call dpotrf('L', block%n, block%l, block%n, info)
-    if (info /= 0) call fail(status, status_numerical, 'lost pivot '//to_text(info)// &
-        ' in the contact block: the matrix is not positive definite')
+    call dpotrf('L', block%n, block%l, block%n, block%lost)
+    if (block%lost /= 0) call fail(status, status_numerical, 'lost pivot '// &
+        to_text(block%lost)//' in the contact block: the matrix is not positive definite')
   end subroutine dense_factor
 
   !> b = matrix^-1 b for one right-hand side of n entries (any shape).

@@ -14,8 +14,8 @@ module linalg_diagonal
 
   type, extends(solver_t), public :: diagonal_t
     integer, allocatable :: last(:)          !< (n_interface) the interface nodes
-    real(wp), allocatable :: inverse(:, :)   !< (2, n) of the diagonal [L/F]
-    real(wp), allocatable :: work(:, :)      !< (2, n) A^-1 b, from forward to backward
+    real(wp), allocatable :: inverse(:, :)   !< (d, n) of the diagonal [L/F]
+    real(wp), allocatable :: work(:, :)      !< (d, n) A^-1 b, from forward to backward
   contains
     procedure :: analyse => diagonal_analyse
     procedure :: factor => diagonal_factor
@@ -28,19 +28,21 @@ module linalg_diagonal
 contains
 
   !> Storage; there is no order.
-  subroutine diagonal_analyse(this, graph, last, status)
+  subroutine diagonal_analyse(this, graph, d, last, status)
     class(diagonal_t), intent(inout) :: this
     type(graph_t), intent(in) :: graph
+    integer, intent(in) :: d
     integer, intent(in) :: last(:)
     type(status_t), intent(inout) :: status
     if (checks_on) call check_graph(graph, last, 'diagonal_analyse')
     this%n = graph%n
+    this%d = d
     this%n_interface = size(last)
     this%last = last
     this%info%order = 'none'
     if (.not. allocated(this%work)) &
-        allocate (this%inverse(2, graph%n), this%work(2, graph%n))
-    this%info%factor_bytes = 16_i8*graph%n
+        allocate (this%inverse(d, graph%n), this%work(d, graph%n))
+    this%info%factor_bytes = 8_i8*d*graph%n
   end subroutine diagonal_analyse
 
   !> The inverse of each entry; one that is not positive is a lost pivot.
@@ -69,7 +71,7 @@ contains
     real(wp), intent(out) :: b_interface(:, :)
     integer :: k
     if (checks_on) call check_vectors(this, b, b_interface, 'diagonal_forward')
-    call multiply_entries(2*this%n, this%inverse, b, this%work)
+    call multiply_entries(this%d*this%n, this%inverse, b, this%work)
     do k = 1, this%n_interface
       b_interface(:, k) = b(:, this%last(k))
     end do
@@ -87,7 +89,7 @@ contains
     class(diagonal_t), intent(in) :: this
     real(wp), intent(inout) :: x_interface(:, :)
     integer :: k
-    if (checks_on) call assert_shape(shape(x_interface), [2, this%n_interface], &
+    if (checks_on) call assert_shape(shape(x_interface), [this%d, this%n_interface], &
         'diagonal_solve_schur', 'x_interface')
     do k = 1, this%n_interface
       x_interface(:, k) = this%inverse(:, this%last(k))*x_interface(:, k)
@@ -97,13 +99,14 @@ contains
   subroutine diagonal_flexibility(this, f)
     class(diagonal_t), intent(in) :: this
     real(wp), intent(out) :: f(:, :)
-    integer :: i, k
-    if (checks_on) call assert_shape(shape(f), [2, 2]*this%n_interface, &
+    integer :: i, k, row
+    if (checks_on) call assert_shape(shape(f), [1, 1]*this%d*this%n_interface, &
         'diagonal_flexibility', 'f')
     f = zero
     do k = 1, this%n_interface
-      do i = 1, 2
-        f(2*k - 2 + i, 2*k - 2 + i) = this%inverse(i, this%last(k))
+      do i = 1, this%d
+        row = this%d*(k - 1) + i
+        f(row, row) = this%inverse(i, this%last(k))
       end do
     end do
   end subroutine diagonal_flexibility

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The node graph and the symmetric matrices that live on it: blocks of 2 x 2 (stiffness-like)
-!> and scalars per node pair (mass-like, the same for both directions).
+!> The node graph and the symmetric matrices that live on it: blocks of d x d (stiffness-like)
+!> and scalars per node pair (mass-like, the same for all d directions); d = 2 or 3.
 !> Rows hold every neighbour and the node itself, in increasing order.
 module linalg_graph
   use base_kinds, only: wp, zero
@@ -16,7 +16,7 @@ module linalg_graph
     procedure :: position => graph_position
   end type graph_t
 
-  !> A = blocks (2, 2, size(column)) on a graph [F/L]; or, where it is diagonal, (2, n) alone.
+  !> A = blocks (d, d, size(column)) on a graph [F/L]; or, where it is diagonal, (d, n) alone.
   type, public :: block_matrix_t
     real(wp), allocatable :: value(:, :, :)
     real(wp), allocatable :: diagonal(:, :)
@@ -115,8 +115,23 @@ contains
     end if
   end function diagonal_entry
 
-  !> y = y + factor * S x for a node-scalar matrix S on a graph; x, y (2, n).
-  pure subroutine scalar_product(n, first, column, s, factor, x, y)
+  !> y = y + factor * S x for a node-scalar matrix S on a graph; x, y (d, n).
+  pure subroutine scalar_product(d, n, first, column, s, factor, x, y)
+    integer, intent(in) :: d, n
+    integer, intent(in) :: first(n + 1)
+    integer, intent(in) :: column(*)
+    real(wp), intent(in) :: s(*)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: x(d, n)
+    real(wp), intent(inout) :: y(d, n)
+    if (d == 2) then
+      call scalar_product_2(n, first, column, s, factor, x, y)
+    else
+      call scalar_product_3(n, first, column, s, factor, x, y)
+    end if
+  end subroutine scalar_product
+
+  pure subroutine scalar_product_2(n, first, column, s, factor, x, y)
     integer, intent(in) :: n
     integer, intent(in) :: first(n + 1)
     integer, intent(in) :: column(*)
@@ -133,10 +148,43 @@ contains
       end do
       y(:, i) = y(:, i) + factor*row
     end do
-  end subroutine scalar_product
+  end subroutine scalar_product_2
 
-  !> p = S x and q = S y in one pass over S; all (2, n).
-  pure subroutine scalar_products(n, first, column, s, x, y, p, q)
+  pure subroutine scalar_product_3(n, first, column, s, factor, x, y)
+    integer, intent(in) :: n
+    integer, intent(in) :: first(n + 1)
+    integer, intent(in) :: column(*)
+    real(wp), intent(in) :: s(*)
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: x(3, n)
+    real(wp), intent(inout) :: y(3, n)
+    real(wp) :: row(3)
+    integer :: i, k
+    do i = 1, n
+      row = zero
+      do k = first(i), first(i + 1) - 1
+        row = row + s(k)*x(:, column(k))
+      end do
+      y(:, i) = y(:, i) + factor*row
+    end do
+  end subroutine scalar_product_3
+
+  !> p = S x and q = S y in one pass over S; all (d, n).
+  pure subroutine scalar_products(d, n, first, column, s, x, y, p, q)
+    integer, intent(in) :: d, n
+    integer, intent(in) :: first(n + 1)
+    integer, intent(in) :: column(*)
+    real(wp), intent(in) :: s(*)
+    real(wp), intent(in) :: x(d, n), y(d, n)
+    real(wp), intent(out) :: p(d, n), q(d, n)
+    if (d == 2) then
+      call scalar_products_2(n, first, column, s, x, y, p, q)
+    else
+      call scalar_products_3(n, first, column, s, x, y, p, q)
+    end if
+  end subroutine scalar_products
+
+  pure subroutine scalar_products_2(n, first, column, s, x, y, p, q)
     integer, intent(in) :: n
     integer, intent(in) :: first(n + 1)
     integer, intent(in) :: column(*)
@@ -155,11 +203,46 @@ contains
       p(:, i) = row_x
       q(:, i) = row_y
     end do
-  end subroutine scalar_products
+  end subroutine scalar_products_2
 
-  !> The same in some rows, digit for digit. (A loop of its own: one shared by both would be
-  !> called for each row.)
+  pure subroutine scalar_products_3(n, first, column, s, x, y, p, q)
+    integer, intent(in) :: n
+    integer, intent(in) :: first(n + 1)
+    integer, intent(in) :: column(*)
+    real(wp), intent(in) :: s(*)
+    real(wp), intent(in) :: x(3, n), y(3, n)
+    real(wp), intent(out) :: p(3, n), q(3, n)
+    real(wp) :: row_x(3), row_y(3)
+    integer :: i, k
+    do i = 1, n
+      row_x = zero
+      row_y = zero
+      do k = first(i), first(i + 1) - 1
+        row_x = row_x + s(k)*x(:, column(k))
+        row_y = row_y + s(k)*y(:, column(k))
+      end do
+      p(:, i) = row_x
+      q(:, i) = row_y
+    end do
+  end subroutine scalar_products_3
+
+  !> The same as scalar_product in some rows, digit for digit. (Loops of their own: one shared
+  !> by both would be called for each row.)
   pure subroutine scalar_rows(graph, s, factor, rows, x, y)
+    type(graph_t), intent(in) :: graph
+    real(wp), intent(in) :: s(:)
+    real(wp), intent(in) :: factor
+    integer, intent(in) :: rows(:)
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: y(:, :)
+    if (size(x, 1) == 2) then
+      call scalar_rows_2(graph, s, factor, rows, x, y)
+    else
+      call scalar_rows_3(graph, s, factor, rows, x, y)
+    end if
+  end subroutine scalar_rows
+
+  pure subroutine scalar_rows_2(graph, s, factor, rows, x, y)
     type(graph_t), intent(in) :: graph
     real(wp), intent(in) :: s(:)
     real(wp), intent(in) :: factor
@@ -175,6 +258,24 @@ contains
       end do
       y(:, rows(k)) = y(:, rows(k)) + factor*total
     end do
-  end subroutine scalar_rows
+  end subroutine scalar_rows_2
+
+  pure subroutine scalar_rows_3(graph, s, factor, rows, x, y)
+    type(graph_t), intent(in) :: graph
+    real(wp), intent(in) :: s(:)
+    real(wp), intent(in) :: factor
+    integer, intent(in) :: rows(:)
+    real(wp), intent(in) :: x(:, :)
+    real(wp), intent(inout) :: y(:, :)
+    real(wp) :: total(3)
+    integer :: k, m
+    do k = 1, size(rows)
+      total = zero
+      do m = graph%first(rows(k)), graph%first(rows(k) + 1) - 1
+        total = total + s(m)*x(:, graph%column(m))
+      end do
+      y(:, rows(k)) = y(:, rows(k)) + factor*total
+    end do
+  end subroutine scalar_rows_3
 
 end module linalg_graph

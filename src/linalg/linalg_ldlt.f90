@@ -1,14 +1,19 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Sparse factor A = L D L' in 2 x 2 node blocks, up-looking along the elimination tree (Davis
-!> 2005), for symmetric positive definite A; the last nodes stay as a dense Schur complement.
-!> Node blocks need one index per four reals and no square root.
+!> Sparse factor A = L D L' in node blocks of 2 x 2 or 3 x 3, up-looking along the elimination
+!> tree (Davis 2005), for symmetric positive definite A; the last nodes stay as a dense Schur
+!> complement.
+!> Node blocks need one index per d^2 reals and no square root. The loops over blocks are in
+!> `linalg_kernels_2` and `_3`, chosen outside of them by d: their arrays have constant bounds,
+!> which one interface of both could not have.
 module linalg_ldlt
-  use base_checks, only: checks_on
+  use base_checks, only: checks_on, assert
   use base_kinds, only: wp, i8, zero
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_dense, only: dense_factor
+  use linalg_kernels_2, only: eliminate_2, invert_2, forward_2, backward_2
+  use linalg_kernels_3, only: eliminate_3, invert_3, forward_3, backward_3
   use linalg_order, only: choose_order
   use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
   use linalg_symbolic, only: symbolic_factor
@@ -21,9 +26,9 @@ module linalg_ldlt
     integer, allocatable :: parent(:)        !< (n) elimination tree, 0 = root
     integer, allocatable :: first(:)         !< (leading+1) start of each column of L
     integer, allocatable :: row(:)           !< row (new number) of each block of L
-    real(wp), allocatable :: l(:, :, :)      !< (2, 2, *) blocks below the diagonal
-    real(wp), allocatable :: d_inverse(:, :) !< (3, leading) 11, 21, 22 of each inverse pivot
-    real(wp), allocatable :: work(:, :)      !< (2, n) right-hand side in elimination order
+    real(wp), allocatable :: l(:, :, :)      !< (d, d, *) blocks below the diagonal
+    real(wp), allocatable :: d_inverse(:, :) !< (d(d+1)/2, leading) of each inverse pivot
+    real(wp), allocatable :: work(:, :)      !< (d, n) right-hand side in elimination order
   contains
     procedure :: analyse => ldlt_analyse
     procedure :: factor => ldlt_factor
@@ -34,15 +39,18 @@ module linalg_ldlt
 contains
 
   !> Order, elimination tree, storage.
-  subroutine ldlt_analyse(this, graph, last, status)
+  subroutine ldlt_analyse(this, graph, d, last, status)
     class(ldlt_t), intent(inout) :: this
     type(graph_t), intent(in) :: graph
+    integer, intent(in) :: d
     integer, intent(in) :: last(:)
     type(status_t), intent(inout) :: status
     integer, allocatable :: rows(:)
     integer :: k
     if (checks_on) call check_graph(graph, last, 'ldlt_analyse')
+    if (checks_on) call assert(d == 2 .or. d == 3, 'ldlt_analyse', 'a node has 2 or 3 unknowns')
     this%n = graph%n
+    this%d = d
     this%n_interface = size(last)
     this%leading = graph%n - size(last)
     call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
@@ -59,11 +67,11 @@ contains
       this%first(k + 1) = this%first(k) + rows(k)
     end do
     allocate (this%row(this%first(this%leading + 1) - 1))
-    allocate (this%l(2, 2, size(this%row)), this%d_inverse(3, this%leading), &
-        this%work(2, graph%n))
-    this%schur%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
-    this%info%factor_bytes = 36_i8*size(this%row, kind=i8) + 28_i8*this%leading &
-        + 32_i8*size(last, kind=i8)**2
+    allocate (this%l(d, d, size(this%row)), this%d_inverse(d*(d + 1)/2, this%leading), &
+        this%work(d, graph%n))
+    this%schur%l = reshape([real(wp) ::], [d*size(last), d*size(last)], pad=[zero])
+    this%info%factor_bytes = (8_i8*d*d + 4_i8)*size(this%row, kind=i8) &
+        + (4_i8*d*(d + 1) + 4_i8)*this%leading + 8_i8*(d*size(last, kind=i8))**2
   end subroutine ldlt_analyse
 
   !> Numerical factor: one row of L at a time, then the dense block by LAPACK.
@@ -75,23 +83,36 @@ contains
     real(wp), allocatable :: y(:, :, :)
     integer, allocatable :: filled(:), mark(:), path(:), reach(:)
     integer :: k, top
+    logical :: ok
     if (checks_on) call check_matrix(this, graph, matrix, 'ldlt_factor')
-    allocate (y(2, 2, this%n), filled(this%leading), mark(this%n), path(this%n), reach(this%n))
+    allocate (y(this%d, this%d, this%n), filled(this%leading), mark(this%n), path(this%n), &
+        reach(this%n))
     y = zero
     filled = this%first(1:this%leading) - 1
     mark = 0
     this%info%null_pivots = 0
     do k = 1, this%n
       call scatter_row(this, graph, matrix, k, y, mark, path, reach, top)
-      call eliminate_row(this, k, reach(top:this%n), y, filled)
-      if (k <= this%leading) then
-        call invert_pivot(this, matrix%value(:, :, &
-            graph%position(this%order(k), this%order(k))), k, y(:, :, k), status)
-        y(:, :, k) = zero
+      if (this%d == 2) then
+        call eliminate_2(k, this%n, reach(top:this%n), this%first, this%d_inverse, this%row, &
+            this%l, filled, y)
       else
-        call store_block_row(this, k, y)
+        call eliminate_3(k, this%n, reach(top:this%n), this%first, this%d_inverse, this%row, &
+            this%l, filled, y)
       end if
-      if (failed(status)) return
+      if (k > this%leading) then
+        call store_block_row(this, k, y)
+        cycle
+      end if
+      call invert_pivot(this, k, matrix%value(:, :, &
+          graph%position(this%order(k), this%order(k))), y(:, :, k), ok)
+      if (.not. ok) then
+        call fail(status, status_numerical, 'lost pivot at node index '// &
+            to_text(this%order(k))//': the effective matrix is not positive definite', &
+            hint='check mass, stiffness and time step of the elements around it')
+        return
+      end if
+      y(:, :, k) = zero
     end do
     call dense_factor(this%schur, status)
   end subroutine ldlt_factor
@@ -126,75 +147,18 @@ contains
     end do
   end subroutine scatter_row
 
-  !> Sparse triangular solve for row k of L; y(:,:,k) becomes the pivot block.
-  subroutine eliminate_row(this, k, reach, y, filled)
+  !> Inverse of pivot block k; original = the same block of A.
+  subroutine invert_pivot(this, k, original, pivot, ok)
     type(ldlt_t), intent(inout) :: this
     integer, intent(in) :: k
-    integer, intent(in) :: reach(:)
-    real(wp), intent(inout) :: y(:, :, :)
-    integer, intent(inout) :: filled(:)
-    real(wp) :: a11, a21, a12, a22, l11, l21, l12, l22
-    integer :: m, j, p, i
-    do m = 1, size(reach)
-      j = reach(m)
-      a11 = y(1, 1, j)
-      a21 = y(2, 1, j)
-      a12 = y(1, 2, j)
-      a22 = y(2, 2, j)
-      y(:, :, j) = zero
-      do p = this%first(j), filled(j)
-        i = this%row(p)
-        y(1, 1, i) = y(1, 1, i) - (a11*this%l(1, 1, p) + a12*this%l(1, 2, p))
-        y(2, 1, i) = y(2, 1, i) - (a21*this%l(1, 1, p) + a22*this%l(1, 2, p))
-        y(1, 2, i) = y(1, 2, i) - (a11*this%l(2, 1, p) + a12*this%l(2, 2, p))
-        y(2, 2, i) = y(2, 2, i) - (a21*this%l(2, 1, p) + a22*this%l(2, 2, p))
-      end do
-      l11 = a11*this%d_inverse(1, j) + a12*this%d_inverse(2, j)
-      l21 = a21*this%d_inverse(1, j) + a22*this%d_inverse(2, j)
-      l12 = a11*this%d_inverse(2, j) + a12*this%d_inverse(3, j)
-      l22 = a21*this%d_inverse(2, j) + a22*this%d_inverse(3, j)
-      y(1, 1, k) = y(1, 1, k) - (l11*a11 + l12*a12)
-      y(2, 1, k) = y(2, 1, k) - (l21*a11 + l22*a12)
-      y(1, 2, k) = y(1, 2, k) - (l11*a21 + l12*a22)
-      y(2, 2, k) = y(2, 2, k) - (l21*a21 + l22*a22)
-      filled(j) = filled(j) + 1
-      this%row(filled(j)) = k
-      this%l(1, 1, filled(j)) = l11
-      this%l(2, 1, filled(j)) = l21
-      this%l(1, 2, filled(j)) = l12
-      this%l(2, 2, filled(j)) = l22
-    end do
-  end subroutine eliminate_row
-
-  !> Inverse of a pivot block; original = the same block of A, the measure of what is null.
-  subroutine invert_pivot(this, original, k, pivot, status)
-    type(ldlt_t), intent(inout) :: this
-    real(wp), intent(in) :: original(2, 2)
-    integer, intent(in) :: k
-    real(wp), intent(in) :: pivot(2, 2)
-    type(status_t), intent(inout) :: status
-    real(wp) :: second, l21, floor_1, floor_2
-    floor_1 = this%options%null_pivot*original(1, 1)
-    floor_2 = this%options%null_pivot*original(2, 2)
-    this%d_inverse(:, k) = zero
-    if (this%options%null_pivot > zero .and. .not. pivot(1, 1) > floor_1) then
-      this%info%null_pivots = this%info%null_pivots + 1
-      if (pivot(2, 2) > floor_2) this%d_inverse(3, k) = 1.0_wp/pivot(2, 2)
-      return
-    end if
-    l21 = pivot(2, 1)/pivot(1, 1)
-    second = pivot(2, 2) - l21*pivot(2, 1)
-    if (this%options%null_pivot > zero .and. .not. second > floor_2) then
-      this%info%null_pivots = this%info%null_pivots + 1
-      this%d_inverse(1, k) = 1.0_wp/pivot(1, 1)
-    else if (pivot(1, 1) > zero .and. second > zero .and. second <= huge(second)) then
-      this%d_inverse(3, k) = 1.0_wp/second
-      this%d_inverse(2, k) = -l21*this%d_inverse(3, k)
-      this%d_inverse(1, k) = 1.0_wp/pivot(1, 1) - l21*this%d_inverse(2, k)
+    real(wp), intent(in) :: original(:, :), pivot(:, :)
+    logical, intent(out) :: ok
+    if (this%d == 2) then
+      call invert_2(this%options%null_pivot, original, pivot, this%d_inverse(:, k), &
+          this%info%null_pivots, ok)
     else
-      call fail(status, status_numerical, 'lost pivot at node index '// &
-          to_text(this%order(k))//': the effective matrix is not positive definite', &
-          hint='check mass, stiffness and time step of the elements around it')
+      call invert_3(this%options%null_pivot, original, pivot, this%d_inverse(:, k), &
+          this%info%null_pivots, ok)
     end if
   end subroutine invert_pivot
 
@@ -204,10 +168,10 @@ contains
     integer, intent(in) :: k
     real(wp), intent(inout) :: y(:, :, :)
     integer :: i, a, b
-    a = 2*(k - this%leading) - 1
+    a = this%d*(k - this%leading - 1) + 1
     do i = this%leading + 1, k
-      b = 2*(i - this%leading) - 1
-      this%schur%l(a:a + 1, b:b + 1) = y(:, :, i)
+      b = this%d*(i - this%leading - 1) + 1
+      this%schur%l(a:a + this%d - 1, b:b + this%d - 1) = y(:, :, i)
       y(:, :, i) = zero
     end do
   end subroutine store_block_row
@@ -219,35 +183,22 @@ contains
     real(wp), intent(out) :: b_interface(:, :)
     integer :: k
     if (checks_on) call check_vectors(this, b, b_interface, 'ldlt_forward')
-    do k = 1, this%n
-      this%work(1, k) = b(1, this%order(k))
-      this%work(2, k) = b(2, this%order(k))
-    end do
-    call forward_blocks(this%leading, this%n, this%first, this%row, this%l, &
-        this%d_inverse, this%work)
+    if (this%d == 2) then
+      do k = 1, this%n
+        this%work(1, k) = b(1, this%order(k))
+        this%work(2, k) = b(2, this%order(k))
+      end do
+      call forward_2(this%leading, this%n, this%first, this%row, this%l, this%d_inverse, &
+          this%work)
+    else
+      do k = 1, this%n
+        this%work(:, k) = b(:, this%order(k))
+      end do
+      call forward_3(this%leading, this%n, this%first, this%row, this%l, this%d_inverse, &
+          this%work)
+    end if
     b_interface = this%work(:, this%leading + 1:this%n)
   end subroutine ldlt_forward
-
-  pure subroutine forward_blocks(leading, n, first, row, l, d, y)
-    integer, intent(in) :: leading, n
-    integer, intent(in) :: first(leading + 1)
-    integer, intent(in) :: row(*)
-    real(wp), intent(in) :: l(2, 2, *)
-    real(wp), intent(in) :: d(3, leading)
-    real(wp), intent(inout) :: y(2, n)
-    real(wp) :: y1, y2
-    integer :: j, p, i
-    do j = 1, leading
-      y1 = y(1, j)
-      y2 = y(2, j)
-      do p = first(j), first(j + 1) - 1
-        i = row(p)
-        y(:, i) = y(:, i) - (l(:, 1, p)*y1 + l(:, 2, p)*y2)
-      end do
-      y(1, j) = d(1, j)*y1 + d(2, j)*y2
-      y(2, j) = d(2, j)*y1 + d(3, j)*y2
-    end do
-  end subroutine forward_blocks
 
   !> x = L'^-1 of what forward left, with x of the block given.
   subroutine ldlt_backward(this, x_interface, x)
@@ -257,32 +208,18 @@ contains
     integer :: k
     if (checks_on) call check_vectors(this, x, x_interface, 'ldlt_backward')
     this%work(:, this%leading + 1:this%n) = x_interface
-    call backward_blocks(this%leading, this%n, this%first, this%row, this%l, this%work)
-    do k = 1, this%n
-      x(1, this%order(k)) = this%work(1, k)
-      x(2, this%order(k)) = this%work(2, k)
-    end do
-  end subroutine ldlt_backward
-
-  pure subroutine backward_blocks(leading, n, first, row, l, y)
-    integer, intent(in) :: leading, n
-    integer, intent(in) :: first(leading + 1)
-    integer, intent(in) :: row(*)
-    real(wp), intent(in) :: l(2, 2, *)
-    real(wp), intent(inout) :: y(2, n)
-    real(wp) :: y1, y2
-    integer :: j, p, i
-    do j = leading, 1, -1
-      y1 = y(1, j)
-      y2 = y(2, j)
-      do p = first(j), first(j + 1) - 1
-        i = row(p)
-        y1 = y1 - (l(1, 1, p)*y(1, i) + l(2, 1, p)*y(2, i))
-        y2 = y2 - (l(1, 2, p)*y(1, i) + l(2, 2, p)*y(2, i))
+    if (this%d == 2) then
+      call backward_2(this%leading, this%n, this%first, this%row, this%l, this%work)
+      do k = 1, this%n
+        x(1, this%order(k)) = this%work(1, k)
+        x(2, this%order(k)) = this%work(2, k)
       end do
-      y(1, j) = y1
-      y(2, j) = y2
-    end do
-  end subroutine backward_blocks
+    else
+      call backward_3(this%leading, this%n, this%first, this%row, this%l, this%work)
+      do k = 1, this%n
+        x(:, this%order(k)) = this%work(:, k)
+      end do
+    end if
+  end subroutine ldlt_backward
 
 end module linalg_ldlt

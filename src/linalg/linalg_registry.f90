@@ -7,7 +7,8 @@ module linalg_registry
   use linalg_diagonal, only: diagonal_t
   use linalg_ldlt, only: ldlt_t
   use linalg_skyline, only: skyline_t
-  use linalg_solver, only: solver_t, solver_options_t
+  use linalg_solver, only: solver_t, solver_options_t, name_length
+  use linalg_supernodal, only: supernodal_t
   implicit none
   private
   public :: make_solver, engine_names
@@ -22,7 +23,7 @@ contains
     type(solver_options_t), intent(in) :: options
     class(solver_t), allocatable, intent(out) :: solver
     type(status_t), intent(inout) :: status
-    character(8), allocatable :: names(:)
+    character(name_length), allocatable :: names(:)
     call find_engine(options%engine, names, solver)
     if (allocated(solver)) then
       solver%options = options
@@ -34,7 +35,7 @@ contains
 
   !> The names of all engines.
   subroutine engine_names(names)
-    character(8), allocatable, intent(out) :: names(:)
+    character(name_length), allocatable, intent(out) :: names(:)
     class(solver_t), allocatable :: none
     call find_engine('', names, none)
   end subroutine engine_names
@@ -43,17 +44,18 @@ contains
   !> an unknown name.
   subroutine find_engine(wanted, names, solver)
     character(*), intent(in) :: wanted
-    character(8), allocatable, intent(out) :: names(:)
+    character(name_length), allocatable, intent(out) :: names(:)
     class(solver_t), allocatable, intent(out) :: solver
     allocate (names(0))
     call offer('LDLT', ldlt_t())
     call offer('SKYLINE', skyline_t())
+    call offer('SUPERNODAL', supernodal_t())
     call offer(engine_diagonal, diagonal_t(takes_diagonal=.true.))
   contains
     subroutine offer(name, engine)
       character(*), intent(in) :: name
       class(solver_t), intent(in) :: engine
-      names = [character(8) :: names, name]
+      names = [character(name_length) :: names, name]
       if (allocated(solver) .or. (wanted /= name .and. wanted /= 'AUTO')) return
       allocate (solver, mold=engine)
       solver%takes_diagonal = engine%takes_diagonal

@@ -17,11 +17,11 @@ module linalg_skyline
   type, extends(solver_t), public :: skyline_t
     integer :: leading = 0                  !< scalar unknowns eliminated
     integer, allocatable :: new(:)
-    integer, allocatable :: left(:)         !< (2n) first column of each scalar row
-    !> (2n+1) row i holds columns left(i)..i-1 from start(i)
+    integer, allocatable :: left(:)         !< (dn) first column of each scalar row
+    !> (dn+1) row i holds columns left(i)..i-1 from start(i)
     integer, allocatable :: start(:)
     real(wp), allocatable :: l(:)
-    real(wp), allocatable :: d(:)           !< (2n) pivots
+    real(wp), allocatable :: pivot(:)       !< (dn) pivots
     real(wp), allocatable :: work(:)
   contains
     procedure :: analyse => skyline_analyse
@@ -33,39 +33,43 @@ module linalg_skyline
 contains
 
   !> Order (AUTO = RCM, which keeps a profile short) and profile.
-  subroutine skyline_analyse(this, graph, last, status)
+  subroutine skyline_analyse(this, graph, d, last, status)
     class(skyline_t), intent(inout) :: this
     type(graph_t), intent(in) :: graph
+    integer, intent(in) :: d
     integer, intent(in) :: last(:)
     type(status_t), intent(inout) :: status
     character(:), allocatable :: wanted
-    integer :: k, m, low
+    integer :: i, k, m, low, row
     wanted = trim(this%options%order)
     if (wanted == 'AUTO') wanted = trim(order_names(order_rcm))
     if (checks_on) call check_graph(graph, last, 'skyline_analyse')
     this%n = graph%n
+    this%d = d
     this%n_interface = size(last)
-    this%leading = 2*(graph%n - size(last))
+    this%leading = d*(graph%n - size(last))
     call choose_order(graph, last, wanted, this%order, this%info%order, &
         this%info%multiplications, status)
     if (failed(status)) return
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]
-    if (allocated(this%left)) deallocate (this%left, this%start, this%l, this%d, this%work)
-    allocate (this%left(2*graph%n), this%start(2*graph%n + 1), this%d(2*graph%n), &
-        this%work(2*graph%n))
+    if (allocated(this%left)) deallocate (this%left, this%start, this%l, this%pivot, this%work)
+    allocate (this%left(d*graph%n), this%start(d*graph%n + 1), this%pivot(d*graph%n), &
+        this%work(d*graph%n))
     this%start(1) = 1
     do k = 1, graph%n
       low = k
       do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
         low = min(low, this%new(graph%column(m)))
       end do
-      this%left(2*k - 1:2*k) = 2*low - 1
-      this%start(2*k) = this%start(2*k - 1) + (2*k - 1) - (2*low - 1)
-      this%start(2*k + 1) = this%start(2*k) + 2*k - (2*low - 1)
+      do i = 1, d
+        row = d*(k - 1) + i
+        this%left(row) = d*(low - 1) + 1
+        this%start(row + 1) = this%start(row) + row - this%left(row)
+      end do
     end do
-    allocate (this%l(this%start(2*graph%n + 1) - 1))
-    this%schur%l = reshape([real(wp) ::], [2*size(last), 2*size(last)], pad=[zero])
+    allocate (this%l(this%start(d*graph%n + 1) - 1))
+    this%schur%l = reshape([real(wp) ::], [d*size(last), d*size(last)], pad=[zero])
     this%info%factor_bytes = 8_i8*size(this%l, kind=i8)
   end subroutine skyline_analyse
 
@@ -81,22 +85,23 @@ contains
     do k = 1, this%n
       do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
         i = this%new(graph%column(m))
-        do r = 1, 2
-          row = 2*k - 2 + r
-          do column = 2*i - 1, min(2*i, row - 1)
+        do r = 1, this%d
+          row = this%d*(k - 1) + r
+          do column = this%d*(i - 1) + 1, min(this%d*i, row - 1)
             this%l(this%start(row) + column - this%left(row)) = matrix%value(r, &
-                column - 2*i + 2, m)
+                column - this%d*(i - 1), m)
           end do
-          if (i == k) this%d(row) = matrix%value(r, r, m)
+          if (i == k) this%pivot(row) = matrix%value(r, r, m)
         end do
       end do
     end do
-    do row = 1, 2*this%n
+    do row = 1, this%d*this%n
       call reduce_row(this, row)
       if (row > this%leading) cycle
-      if (this%d(row) > zero .and. this%d(row) <= huge(zero)) cycle
+      if (this%pivot(row) > zero .and. this%pivot(row) <= huge(zero)) cycle
       call fail(status, status_numerical, 'lost pivot at node index '// &
-          to_text(this%order((row + 1)/2))//': the effective matrix is not positive definite')
+          to_text(this%order((row - 1)/this%d + 1))// &
+          ': the effective matrix is not positive definite')
       return
     end do
     call take_block(this)
@@ -124,8 +129,8 @@ contains
     do column = this%left(row), min(row - 1, this%leading)
       associate (l => this%l(this%start(row) + column - this%left(row)))
         entry = l
-        l = entry/this%d(column)
-        this%d(row) = this%d(row) - l*entry
+        l = entry/this%pivot(column)
+        this%pivot(row) = this%pivot(row) - l*entry
       end associate
     end do
   end subroutine reduce_row
@@ -133,8 +138,8 @@ contains
   subroutine take_block(this)
     type(skyline_t), intent(inout) :: this
     integer :: row, column
-    do row = this%leading + 1, 2*this%n
-      this%schur%l(row - this%leading, row - this%leading) = this%d(row)
+    do row = this%leading + 1, this%d*this%n
+      this%schur%l(row - this%leading, row - this%leading) = this%pivot(row)
       do column = this%leading + 1, row - 1
         if (column < this%left(row)) cycle
         this%schur%l(row - this%leading, column - this%leading) = &
@@ -151,15 +156,16 @@ contains
     integer :: k, row, top
     if (checks_on) call check_vectors(this, b, b_interface, 'skyline_forward')
     do k = 1, this%n
-      this%work(2*k - 1:2*k) = b(:, this%order(k))
+      this%work(this%d*(k - 1) + 1:this%d*k) = b(:, this%order(k))
     end do
-    do row = 1, 2*this%n
+    do row = 1, this%d*this%n
       top = min(row - 1, this%leading)
       this%work(row) = this%work(row) - dot_product(this%l(this%start(row):this%start(row) &
           + top - this%left(row)), this%work(this%left(row):top))
     end do
-    b_interface = reshape(this%work(this%leading + 1:), [2, this%n_interface])
-    this%work(1:this%leading) = this%work(1:this%leading)/this%d(1:this%leading)
+    b_interface = reshape(this%work(this%leading + 1:), [this%d, this%n_interface])
+    this%work(1:this%leading) = this%work(1:this%leading)&
+        /this%pivot(1:this%leading)
   end subroutine skyline_forward
 
   !> Backward pass: each known unknown is taken out of the rows before it.
@@ -169,14 +175,14 @@ contains
     real(wp), intent(out) :: x(:, :)
     integer :: k, row, top
     if (checks_on) call check_vectors(this, x, x_interface, 'skyline_backward')
-    this%work(this%leading + 1:) = reshape(x_interface, [2*this%n_interface])
-    do row = 2*this%n, 1, -1
+    this%work(this%leading + 1:) = reshape(x_interface, [this%d*this%n_interface])
+    do row = this%d*this%n, 1, -1
       top = min(row - 1, this%leading)
       this%work(this%left(row):top) = this%work(this%left(row):top) &
           - this%work(row)*this%l(this%start(row):this%start(row) + top - this%left(row))
     end do
     do k = 1, this%n
-      x(:, this%order(k)) = this%work(2*k - 1:2*k)
+      x(:, this%order(k)) = this%work(this%d*(k - 1) + 1:this%d*k)
     end do
   end subroutine skyline_backward
 

@@ -3,9 +3,9 @@
 !> last:
 !>   analyse -> factor -> [forward -> solve_schur ... -> backward] per step.
 !> forward reduces b to the block: S x_interface = b_interface with the Schur complement S; all
-!> contact
-!> iterations happen there; backward gives the rest of x. Vectors are (2, n) in node order,
-!> those of the block (2, m) in the order of `last`.
+!> contact iterations happen there; backward gives the rest of x. A has blocks of d x d for each
+!> pair of nodes, d = 2 in the plane and 3 in space. Vectors are (d, n) in node order, those of
+!> the block (d, m) in the order of `last`.
 module linalg_solver
   use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, i8
@@ -15,9 +15,11 @@ module linalg_solver
   implicit none
   private
 
+  integer, parameter, public :: name_length = 10   !< of an engine or an order
+
   type, public :: solver_options_t
-    character(8) :: engine = 'AUTO'
-    character(8) :: order = 'AUTO'
+    character(name_length) :: engine = 'AUTO'
+    character(name_length) :: order = 'AUTO'
     integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
     !> A pivot below this share of its own diagonal before elimination counts as null: its
     !> unknown is set to zero. 0 = null pivots are an error.
@@ -27,7 +29,7 @@ module linalg_solver
   type, public :: solver_info_t
     character(:), allocatable :: engine
     character(:), allocatable :: order
-    integer(i8) :: multiplications = 0_i8  !< per factorisation, in 2 x 2 blocks
+    integer(i8) :: multiplications = 0_i8  !< per factorisation, in node blocks
     integer(i8) :: factor_bytes = 0_i8
     integer :: null_pivots = 0
   end type solver_info_t
@@ -36,6 +38,7 @@ module linalg_solver
     type(solver_options_t) :: options
     type(solver_info_t) :: info
     integer :: n = 0
+    integer :: d = 2                  !< unknowns of a node
     integer :: n_interface = 0
     logical :: takes_diagonal = .false.   !< `diagonal` of a matrix, and no other matrix
     integer, allocatable :: order(:)  !< (n) new -> old
@@ -50,11 +53,13 @@ module linalg_solver
   end type solver_t
 
   abstract interface
-    !> Symbolic part: elimination order with the nodes `last` at the end, storage.
-    subroutine analyse_i(this, graph, last, status)
+    !> Symbolic part: elimination order with the nodes `last` at the end, storage for d unknowns
+    !> of each node.
+    subroutine analyse_i(this, graph, d, last, status)
       import :: solver_t, graph_t, status_t
       class(solver_t), intent(inout) :: this
       type(graph_t), intent(in) :: graph
+      integer, intent(in) :: d
       integer, intent(in) :: last(:)
       type(status_t), intent(inout) :: status
     end subroutine analyse_i
@@ -86,20 +91,22 @@ module linalg_solver
 
 contains
 
-  !> x_interface = S^-1 x_interface, x_interface (2, m).
+  !> x_interface = S^-1 x_interface, x_interface (d, m).
   subroutine solve_schur(this, x_interface)
     class(solver_t), intent(in) :: this
     real(wp), intent(inout) :: x_interface(:, :)
-    if (checks_on) call assert_shape(shape(x_interface), [2, this%n_interface], &
+    if (checks_on) call assert_shape(shape(x_interface), [this%d, this%n_interface], &
         'solve_schur', 'x_interface')
-    if (this%n_interface > 0) call dense_solve(this%schur, 2*this%n_interface, x_interface)
+    if (this%n_interface > 0) call dense_solve(this%schur, this%d*this%n_interface, &
+        x_interface)
   end subroutine solve_schur
 
-  !> Flexibility of the block, S^-1, as (2m, 2m) [L/F], symmetric to the last bit.
+  !> Flexibility of the block, S^-1, as (dm, dm) [L/F], symmetric to the last bit.
   subroutine flexibility(this, f)
     class(solver_t), intent(in) :: this
     real(wp), intent(out) :: f(:, :)
-    if (checks_on) call assert_shape(shape(f), [2, 2]*this%n_interface, 'flexibility', 'f')
+    if (checks_on) call assert_shape(shape(f), [1, 1]*this%d*this%n_interface, &
+        'flexibility', 'f')
     if (this%n_interface > 0) call dense_inverse(this%schur, f)
   end subroutine flexibility
 
@@ -108,7 +115,7 @@ contains
     class(solver_t), intent(inout) :: solver
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: x(:, :)
-    real(wp) :: x_interface(2, solver%n_interface)
+    real(wp) :: x_interface(solver%d, solver%n_interface)
     call solver%forward(b, x_interface)
     call solver%solve_schur(x_interface)
     call solver%backward(x_interface, x)
@@ -147,22 +154,22 @@ contains
     if (.not. checks_on) return
     call assert(graph%n == solver%n, place, 'the graph is the one that was analysed')
     if (solver%takes_diagonal) then
-      call assert_shape(shape(matrix%diagonal), [2, graph%n], place, 'matrix%diagonal')
+      call assert_shape(shape(matrix%diagonal), [solver%d, graph%n], place, 'matrix%diagonal')
     else
-      call assert_shape(shape(matrix%value), [2, 2, size(graph%column)], place, 'matrix%value')
+      call assert_shape(shape(matrix%value), [solver%d, solver%d, size(graph%column)], place, &
+          'matrix%value')
     end if
   end subroutine check_matrix
 
-  !> Assertions on the vectors of a forward or backward pass: (2, n) of all nodes,
-  !> (2, n_interface)
-  !> of the last.
+  !> Assertions on the vectors of a forward or backward pass: (d, n) of all nodes,
+  !> (d, n_interface) of the last.
   subroutine check_vectors(solver, whole, block, place)
     class(solver_t), intent(in) :: solver
     real(wp), intent(in) :: whole(:, :), block(:, :)
     character(*), intent(in) :: place
     if (.not. checks_on) return
-    call assert_shape(shape(whole), [2, solver%n], place, 'the vector of all nodes')
-    call assert_shape(shape(block), [2, solver%n_interface], place, &
+    call assert_shape(shape(whole), [solver%d, solver%n], place, 'the vector of all nodes')
+    call assert_shape(shape(block), [solver%d, solver%n_interface], place, &
         'the vector of the last nodes')
   end subroutine check_vectors
 

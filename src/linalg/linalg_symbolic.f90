@@ -6,7 +6,7 @@ module linalg_symbolic
   use linalg_graph, only: graph_t
   implicit none
   private
-  public :: symbolic_factor, count_factor
+  public :: symbolic_factor, count_factor, order_tree
 
 contains
 
@@ -29,7 +29,7 @@ contains
     call count_rows(graph, order, new, leading, parent, rows)
   end subroutine symbolic_factor
 
-  !> Multiplications of 2 x 2 blocks that the factor of an order costs: half the sum of the
+  !> Multiplications of node blocks that the factor of an order costs: half the sum of the
   !> squares of its column lengths, and the pivots.
   pure integer(i8) function count_factor(graph, order, leading)
     type(graph_t), intent(in) :: graph

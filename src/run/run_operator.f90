@@ -157,7 +157,7 @@ contains
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     if (again) then
-      call run%solver%analyse(run%system%graph, kept_nodes(run), status)
+      call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
       if (failed(status)) return
       run%analyses = run%analyses + 1
     end if

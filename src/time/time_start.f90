@@ -50,7 +50,7 @@ contains
     if (.not. size_f > zero) return
     solver%options%null_pivot = null_pivot
     call effective_matrix(system, one, zero, zero, zero, matrix)
-    call solver%analyse(system%graph, [integer ::], status)
+    call solver%analyse(system%graph, size(f, 1), [integer ::], status)
     call solver%factor(system%graph, matrix, status)
     if (failed(status)) return
     allocate (a, mold=f)

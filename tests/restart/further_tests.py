@@ -97,7 +97,7 @@ def variants():
         with open(path) as file:
             yield name, file.read(), "DISPERSION" not in data.values()
     smooth = base.scene("friction")
-    for card in ("LDLT,NATURAL", "LDLT,RCM", "LDLT,METIS", "SKYLINE,RCM"):
+    for card in ("LDLT,NATURAL", "LDLT,RCM", "LDLT,METIS", "SKYLINE,RCM", "SUPERNODAL,METIS"):
         yield card.lower(), with_cards(smooth, "*BIPACT_SOLVER\n%s,\n" % card), True
     for card in ("GS,", "PROX,", "NEWTON,", "GS,,,,EXACT", ",,,,,,,0"):
         yield "contact " + card, with_cards(smooth, "*BIPACT_CONTACT\n%s\n" % card), True

@@ -48,7 +48,7 @@ contains
         matrix%value(i, i, graph%position(k, k)) = one
       end do
     end do
-    call solver%analyse(graph, [3], status)
+    call solver%analyse(graph, size(b, 1), [3], status)
     call solver%factor(graph, matrix, status)
     b = one
     call solver%forward(b, b_interface)

@@ -1,0 +1,118 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Processor time of a linear solver on a square (d = 2) or a cube (d = 3) of n nodes a side, all
+!> nodes of an element coupled, with or without one face kept last:
+!>   build/release/bench/linear_solvers ENGINE n d [FACE]
+!> Prints size and work of the factor; seconds of analysis and factor, its rate, milliseconds of
+!> one solve (both passes and the Schur complement), the residual.
+program linear_solvers
+  use base_kinds, only: wp
+  use base_status, only: status_t, failed, status_text
+  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques
+  use linalg_registry, only: make_solver
+  use linalg_solver, only: solver_t, solver_options_t, solve_whole
+  implicit none
+  class(solver_t), allocatable :: solver
+  type(graph_t) :: graph
+  type(block_matrix_t) :: matrix
+  type(status_t) :: status
+  type(solver_options_t) :: options
+  real(wp), allocatable :: b(:, :), x(:, :)
+  real(wp) :: analysis, factor, passes, gigaflops
+  character(16) :: word(4)
+  integer :: n, d, k, repeats
+
+  do k = 1, 4
+    call get_command_argument(k, word(k))
+  end do
+  options%engine = trim(word(1))
+  read (word(2), *) n
+  read (word(3), *) d
+  call make_graph()
+  call fill_matrix()
+  allocate (b(d, graph%n), x(d, graph%n))
+  call random_number(b)
+  call make_solver(options, solver, status)
+  analysis = seconds()
+  call solver%analyse(graph, d, [(k, k=1, merge(n**(d - 1), 0, word(4) == 'FACE'))], status)
+  analysis = seconds() - analysis
+  factor = seconds()
+  call solver%factor(graph, matrix, status)
+  factor = seconds() - factor
+  if (failed(status)) then
+    print '(a)', status_text(status)
+    stop 1
+  end if
+  repeats = max(3, int(2.0e8_wp/(real(solver%info%factor_bytes, wp) + 1.0_wp)))
+  call solve_whole(solver, b, x)
+  passes = seconds()
+  do k = 1, repeats
+    call solve_whole(solver, b, x)
+  end do
+  passes = (seconds() - passes)/repeats
+  gigaflops = 2.0e-9_wp*d**3*real(solver%info%multiplications, wp)
+  print '(a, i0, 3a, f0.3, a, f0.1, a)', 'dofs ', d*graph%n, ', order ', solver%info%order, &
+      ', ', gigaflops, ' Gflop, factor ', 1.0e-6_wp*real(solver%info%factor_bytes, wp), ' MB'
+  print '(2(a, f0.3), a, f0.1, a, f0.4, a, es7.1)', 'analysis ', analysis, ' s, factor ', factor, &
+      ' s (', gigaflops/factor, ' Gflop/s), solve ', 1.0e3_wp*passes, ' ms, residual ', residual()
+
+contains
+
+  real(wp) function seconds()
+    call cpu_time(seconds)
+  end function seconds
+
+  !> The first face has the numbers 1..n^(d-1).
+  subroutine make_graph()
+    integer, allocatable :: member(:)
+    integer :: e, i, corner, node, elements
+    elements = (n - 1)**d
+    allocate (member(2**d*elements))
+    do e = 0, elements - 1
+      do corner = 0, 2**d - 1
+        node = 0
+        do i = d - 1, 0, -1
+          node = node*n + mod(e/(n - 1)**i, n - 1) + ibits(corner, i, 1)
+        end do
+        member(2**d*e + corner + 1) = node + 1
+      end do
+    end do
+    call graph_from_cliques(n**d, [(2**d*e + 1, e=0, elements)], member, graph)
+  end subroutine make_graph
+
+  !> Random, symmetric, diagonally dominant.
+  subroutine fill_matrix()
+    real(wp) :: block(d, d)
+    integer :: i, m, c
+    allocate (matrix%value(d, d, size(graph%column)), matrix%diagonal(d, graph%n))
+    do i = 1, graph%n
+      do m = graph%first(i), graph%first(i + 1) - 1
+        if (graph%column(m) > i) cycle
+        call random_number(block)
+        block = block - 0.5_wp
+        if (graph%column(m) == i) then
+          block = block + transpose(block)
+          do c = 1, d
+            block(c, c) = block(c, c) + d*(graph%first(i + 1) - graph%first(i))
+            matrix%diagonal(c, i) = block(c, c)
+          end do
+        end if
+        matrix%value(:, :, m) = block
+        matrix%value(:, :, graph%position(graph%column(m), i)) = transpose(block)
+      end do
+    end do
+  end subroutine fill_matrix
+
+  !> |b - A x|/|b|.
+  real(wp) function residual()
+    real(wp) :: r(d, graph%n)
+    integer :: i, m
+    r = b
+    do i = 1, graph%n
+      do m = graph%first(i), graph%first(i + 1) - 1
+        r(:, i) = r(:, i) - matmul(matrix%value(:, :, m), x(:, graph%column(m)))
+      end do
+    end do
+    residual = norm2(r)/norm2(b)
+  end function residual
+
+end program linear_solvers
