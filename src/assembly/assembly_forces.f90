@@ -12,7 +12,7 @@ module assembly_forces
   private
   public :: subtract_internal_force, subtract_layer_force, subtract_element_forces, &
       layer_product, strain_energies, &
-      strain_product, element_product, add_loads, largest_rotation, first_inverted
+      strain_product, element_product, add_loads
 
 contains
 
@@ -262,57 +262,6 @@ contains
       total = total + d(i)*row
     end do
   end function product_of_any
-
-  !> Largest rotation of an element [radians], by its diagonals, and the element.
-  pure subroutine largest_rotation(system, x, u, angle, element)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    real(wp), intent(out) :: angle
-    integer, intent(out) :: element
-    real(wp) :: d(2), e(2), sine, cosine, size_d, size_e
-    integer :: k
-    angle = zero
-    element = 0
-    do k = 1, size(system%block_of)
-      associate (block => system%block(system%block_of(k)))
-        if (block%is_rigid) cycle    ! turns as it will
-        associate (node => block%node(:, k - block%first + 1))
-          d = x(:, node(3)) - x(:, node(1))
-          e = d + (u(:, node(3)) - u(:, node(1)))
-        end associate
-      end associate
-      ! Unit sizes first: the products of an unbounded motion would overflow.
-      size_d = maxval(abs(d))
-      size_e = maxval(abs(e))
-      if (.not. size_e > zero) cycle
-      d = d/size_d
-      e = e/size_e
-      sine = d(1)*e(2) - d(2)*e(1)
-      cosine = d(1)*e(1) + d(2)*e(2)
-      if (abs(sine) <= angle*cosine) cycle
-      angle = abs(sine)/max(cosine, tiny(cosine))
-      element = k
-    end do
-    angle = atan(angle)
-  end subroutine largest_rotation
-
-  !> The first element whose area at X + U is not positive; 0 = none.
-  pure integer function first_inverted(system, x, u)
-    type(system_t), intent(in) :: system
-    real(wp), intent(in) :: x(:, :), u(:, :)
-    real(wp) :: d(2), e(2)
-    do first_inverted = 1, size(system%block_of)
-      associate (block => system%block(system%block_of(first_inverted)))
-        associate (c => block%node(:, first_inverted - block%first + 1), &
-            last => block%nodes)
-          d = (x(:, c(3)) - x(:, c(1))) + (u(:, c(3)) - u(:, c(1)))
-          e = (x(:, c(last)) - x(:, c(2))) + (u(:, c(last)) - u(:, c(2)))
-        end associate
-      end associate
-      if (.not. d(1)*e(2) - d(2)*e(1) > zero) return
-    end do
-    first_inverted = 0
-  end function first_inverted
 
   !> p = p + factor * loads at a time: nodal forces by their curves, body loads as
   !> - M (acceleration of the base).

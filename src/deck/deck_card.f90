@@ -4,7 +4,7 @@ module deck_card
   use base_strings, only: to_text
   use deck_check, only: check_card, check_head
   use deck_data, only: deck_t, block_t, record_t
-  use deck_form, only: has_commas
+  use deck_form, only: has_commas, has_two_fields
   use deck_problems, only: add_note
   use deck_source, only: cursor_t, next_line
   use deck_table, only: keyword_t
@@ -83,6 +83,10 @@ contains
           head_is_next = head > 0
           card = 0
         end if
+        if (count == 0 .and. k%other_form > 0) call choose_form(deck, line, row)
+      end associate
+      associate (line => deck%file(cursor%file)%text(cursor%first:cursor%last), &
+          k => deck%table%keyword(row))
         if (head_is_next) then
           head_is_next = .false.
           call add_record(deck, cursor, 0)
@@ -102,6 +106,19 @@ contains
     deck%block(deck%blocks)%last = deck%records
     call check_count(deck, row, count, card)
   end subroutine read_cards
+
+  !> The first card of a keyword that has two forms tells which it is: row becomes that of the
+  !> other one where two fields stand alone.
+  subroutine choose_form(deck, line, row)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: line
+    integer, intent(inout) :: row
+    associate (block => deck%block(deck%blocks))
+      if (has_two_fields(line, deck%table%keyword(row)%card(1), block%long)) &
+          row = deck%table%keyword(row)%other_form
+      block%keyword = row
+    end associate
+  end subroutine choose_form
 
   !> A blank line is no card where a card with fields that must be given comes next, or where
   !> only further sets could follow: it stands between cards.

@@ -7,10 +7,11 @@ module deck_check
   use deck_data, only: deck_t, field_span, slice_field, parameter_of, convert
   use deck_heads, only: read_head
   use deck_problems, only: add_note, full
-  use deck_table, only: field_t, card_t, field_tuning, field_fixed
+  use deck_table, only: field_t, card_t, field_tuning, field_fixed, field_in_space, &
+      waits_for_dimension
   implicit none
   private
-  public :: check_card, check_head
+  public :: check_card, check_head, check_dimension
 
   integer, parameter :: head_id = 2
   !> Squares and products of four numbers of this size stay far from overflow and underflow.
@@ -85,6 +86,7 @@ contains
           do f = 1, card%fields
             call field_span(line, card%field(f), f, r%comma, block%long, first, last)
             if (card%field(f)%kind == 'T') cycle
+            if (last >= first .and. waits_for_dimension(card%field(f))) cycle
             if (last >= first) then
               call slice_field(line, card%field(f), f, r%comma, block%long, left, right)
               call check_field(deck, record, f, card%field(f), line(first:last), &
@@ -98,6 +100,48 @@ contains
       end associate
     end associate
   end subroutine check_card
+
+  !> The fields whose meaning depends on the dimension of the model, once that is known.
+  subroutine check_dimension(deck)
+    type(deck_t), intent(inout) :: deck
+    integer :: b, r, f
+    do b = 1, deck%blocks
+      if (.not. deck%table%keyword(deck%block(b)%keyword)%by_dimension) cycle
+      do r = deck%block(b)%first, deck%block(b)%last
+        if (deck%record(r)%card == 0) cycle
+        associate (card => deck%table%keyword(deck%block(b)%keyword)%card(deck%record(r)%card))
+          do f = 1, card%fields
+            if (waits_for_dimension(card%field(f))) &
+                call check_waiting(deck, r, f, card%field(f))
+          end do
+        end associate
+      end do
+    end do
+  end subroutine check_dimension
+
+  !> One of them: as the plane has it, or space.
+  subroutine check_waiting(deck, record, f, field)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record, f
+    type(field_t), intent(in) :: field
+    type(field_t) :: here
+    character(:), allocatable :: line
+    integer :: first, last, left, right
+    here = field
+    if (.not. deck%in_space) then
+      here%high = min(field%high, field%plane_high)
+      if (field%class == field_in_space) here%class = field_fixed
+    end if
+    associate (r => deck%record(record))
+      associate (block => deck%block(r%block))
+        line = deck%file(block%file)%text(r%first:r%last)
+        call field_span(line, field, f, r%comma, block%long, first, last)
+        if (last < first) return
+        call slice_field(line, field, f, r%comma, block%long, left, right)
+      end associate
+    end associate
+    call check_field(deck, record, f, here, line(first:last), line(left:min(right, len(line))))
+  end subroutine check_waiting
 
   !> Text is taken as it is, but not cut.
   subroutine check_text(deck, record, line, card)

@@ -54,6 +54,7 @@ module deck_data
     integer :: parameters = 0
     type(parameter_t), allocatable :: parameter(:)
     type(line_t), allocatable :: folder(:)   !< where else included files are looked for
+    logical :: in_space = .false.            !< it has elements in space
     type(problems_t) :: problems
   contains
     procedure :: real => deck_real

@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The form of a card: whether commas separate its fields.
+!> The form of a card: whether commas separate its fields, whether it has two alone.
 module deck_form
   use base_strings, only: position_of
+  use deck_data, only: field_span
   use deck_table, only: card_t
   implicit none
   private
-  public :: has_commas
+  public :: has_commas, has_two_fields
 
 contains
 
@@ -23,5 +24,18 @@ contains
           .and. comma <= merge(20*(card%fields - 1) + 1, last%first, long)
     end associate
   end function has_commas
+
+  !> Are all fields of a line after its second one blank?
+  pure logical function has_two_fields(line, card, long)
+    character(*), intent(in) :: line
+    type(card_t), intent(in) :: card
+    logical, intent(in) :: long
+    integer :: f, first, last
+    has_two_fields = .true.
+    do f = 3, card%fields
+      call field_span(line, card%field(f), f, has_commas(line, card, long), long, first, last)
+      has_two_fields = has_two_fields .and. last < first
+    end do
+  end function has_two_fields
 
 end module deck_form

@@ -3,7 +3,8 @@
 module deck_help
   use base_strings, only: to_text
   use deck_table, only: table_t, keyword_t, field_t, keyword_used, keyword_skipped, &
-      keyword_refused, keyword_frame, field_honoured, field_tuning, field_fixed, field_ignored
+      keyword_refused, keyword_frame, field_honoured, field_tuning, field_fixed, field_ignored, &
+      field_in_space
   implicit none
   private
   public :: write_usage, write_keywords, write_keyword
@@ -188,6 +189,8 @@ contains
         to_text(field%low)
     if (field%high < huge(field%high)) text = text//' '// &
         trim(merge('< ', '<=', field%high_open))//' '//to_text(field%high)
+    if (field%plane_high < huge(field%high)) text = text//' (plane: '// &
+        to_text(field%plane_high)//')'
   end function range_text
 
   !> |A|B| as "A, B".
@@ -214,6 +217,8 @@ contains
       text = 'blank or default'
     case (field_ignored)
       text = 'read, no effect'
+    case (field_in_space)
+      text = 'honoured in space'
     end select
   end function use_text
 

@@ -87,6 +87,9 @@ contains
     call add_history(table, 'DATABASE_HISTORY_SHELL', 'element', 'ELOUT')
     call add_named_history(table, 'DATABASE_HISTORY_SHELL_ID', 'element', 'ELOUT')
     call add_history(table, 'DATABASE_HISTORY_SHELL_SET', 'element set', 'ELOUT')
+    call add_history(table, 'DATABASE_HISTORY_SOLID', 'element', 'ELOUT')
+    call add_named_history(table, 'DATABASE_HISTORY_SOLID_ID', 'element', 'ELOUT')
+    call add_history(table, 'DATABASE_HISTORY_SOLID_SET', 'element set', 'ELOUT')
   end subroutine add_output_keywords
 
   subroutine add_history(table, name, what, which)

@@ -2,6 +2,7 @@
 !> Keywords of motion and load: initial velocities, supports, prescribed motions, loads,
 !> damping, curves.
 module deck_keywords_load
+  use deck_keywords_mesh, only: add_segment_nodes
   use deck_table, only: table_t, add_keyword, add_card, add_field
   implicit none
   private
@@ -24,6 +25,7 @@ contains
     call add_segment_loads(table)
     call add_body_load(table, 'LOAD_BODY_X')
     call add_body_load(table, 'LOAD_BODY_Y')
+    call add_body_load(table, 'LOAD_BODY_Z')
     call add_damping(table)
     call add_part_damping(table, '', 'PID', 'part')
     call add_part_damping(table, '_SET', 'PSID', 'part set')
@@ -53,7 +55,7 @@ contains
     type(table_t), intent(inout) :: table
     call add_field(table, 'VX', 'R10 =0.0 [L/T]', 'velocity')
     call add_field(table, 'VY', 'R10 =0.0 [L/T]', 'velocity')
-    call add_field(table, 'VZ', 'R10 fixed [L/T]', 'the model is plane')
+    call add_field(table, 'VZ', 'R10 space [L/T]', 'velocity; a plane model has none')
     call add_field(table, 'VXR', 'R10 fixed')
     call add_field(table, 'VYR', 'R10 fixed')
     call add_field(table, 'VZR', 'R10 fixed')
@@ -66,19 +68,20 @@ contains
     call add_card(table)
     call add_field(table, 'ID', 'I10 =0 >=0', 'part set, part or node set by STYP; 0 = all')
     call add_field(table, 'STYP', 'I10 =1 0=d >=1 <=3', '1 part set, 2 part, 3 node set')
-    call add_field(table, 'OMEGA', 'R10 =0.0 [1/T]', 'angular velocity about z through XC, YC')
+    call add_field(table, 'OMEGA', 'R10 =0.0 [1/T]', 'angular velocity about the axis')
     call add_field(table, 'VX', 'R10 =0.0 [L/T]', 'velocity')
     call add_field(table, 'VY', 'R10 =0.0 [L/T]', 'velocity')
-    call add_field(table, 'VZ', 'R10 fixed [L/T]', 'the model is plane')
+    call add_field(table, 'VZ', 'R10 space [L/T]', 'velocity; a plane model has none')
     call add_field(table, 'IVATN', 'I10 note', 'of rigid parts')
     call add_field(table, 'ICID', 'I10 fixed')
     call add_card(table)
     call add_field(table, 'XC', 'R10 =0.0 [L]', 'centre of rotation')
     call add_field(table, 'YC', 'R10 =0.0 [L]', 'centre of rotation')
-    call add_field(table, 'ZC', 'R10 ignored [L]')
-    call add_field(table, 'NX', 'R10 fixed', 'the axis is z')
-    call add_field(table, 'NY', 'R10 fixed', 'the axis is z')
-    call add_field(table, 'NZ', 'R10 =1.0 0=d', '1 or -1: the sense of rotation')
+    call add_field(table, 'ZC', 'R10 [L]', 'centre of rotation')
+    call add_field(table, 'NX', 'R10 space', 'direction of the axis; plane: z')
+    call add_field(table, 'NY', 'R10 space', 'direction of the axis; plane: z')
+    call add_field(table, 'NZ', 'R10 =1.0 0=d', &
+        'direction of the axis, 0 = 1 where NX, NY are 0; plane: 1 or -1')
     call add_field(table, 'PHASE', 'I10 fixed')
     call add_field(table, 'IRIGID', 'I10 fixed')
   end subroutine add_generation
@@ -93,7 +96,7 @@ contains
     call add_field(table, 'CID', 'I10 fixed')
     call add_field(table, 'DOFX', 'I10 =0 >=0 <=1', '1 = fixed')
     call add_field(table, 'DOFY', 'I10 =0 >=0 <=1', '1 = fixed')
-    call add_field(table, 'DOFZ', 'I10 ignored >=0 <=1')
+    call add_field(table, 'DOFZ', 'I10 >=0 <=1', '1 = fixed; of no effect in the plane')
     call add_field(table, 'DOFRX', 'I10 ignored >=0 <=1')
     call add_field(table, 'DOFRY', 'I10 ignored >=0 <=1')
     call add_field(table, 'DOFRZ', 'I10 ignored >=0 <=1')
@@ -138,7 +141,7 @@ contains
     if (id == 'PID') then
       call add_field(table, 'DOF', 'I10 req >=1 <=7', '1 = x, 2 = y, 7 = rotation about z')
     else
-      call add_field(table, 'DOF', 'I10 req >=1 <=2', '1 = x, 2 = y')
+      call add_field(table, 'DOF', 'I10 req >=1 <=3 plane<=2', '1 = x, 2 = y, 3 = z')
     end if
   end subroutine add_direction
 
@@ -177,10 +180,7 @@ contains
         id=.true., required=1)
     call add_card(table)
     call add_pressure(table)
-    call add_field(table, 'N1', 'I10 req >0', 'node of an exposed element edge')
-    call add_field(table, 'N2', 'I10 req >0', 'its other node; the order does not matter')
-    call add_field(table, 'N3', 'I10 =0 >=0', '0 or N2')
-    call add_field(table, 'N4', 'I10 =0 >=0', '0 or N2')
+    call add_segment_nodes(table)
     call add_field(table, 'N5', 'I10 fixed', 'of quadratic edges')
   end subroutine add_segment_loads
 
@@ -217,7 +217,7 @@ contains
     call add_field(table, 'VALDMP', 'R10 =0.0 [1/T] >=0', 'coefficient without a curve')
     call add_field(table, 'STX', 'R10 =0.0 >=0', 'scale in x; all scales 0 = all 1')
     call add_field(table, 'STY', 'R10 =0.0 >=0', 'scale in y')
-    call add_field(table, 'STZ', 'R10 ignored')
+    call add_field(table, 'STZ', 'R10', 'scale in z, in space')
     call add_field(table, 'SRX', 'R10 ignored')
     call add_field(table, 'SRY', 'R10 ignored')
     call add_field(table, 'SRZ', 'R10 ignored')

@@ -4,7 +4,7 @@ module deck_keywords_mesh
   use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field
   implicit none
   private
-  public :: add_mesh_keywords
+  public :: add_mesh_keywords, add_segment_nodes
 
 contains
 
@@ -12,7 +12,9 @@ contains
   subroutine add_mesh_keywords(table)
     type(table_t), intent(inout) :: table
     call add_nodes_and_elements(table)
+    call add_solids(table)
     call add_parts(table)
+    call add_solid_section(table)
     call add_materials(table)
     call add_list_set(table, 'SET_NODE_LIST', 'SET_NODE', 'NID', 'node')
     call add_range_set(table, 'SET_NODE_LIST_GENERATE', 'node')
@@ -20,13 +22,17 @@ contains
     call add_range_set(table, 'SET_PART_LIST_GENERATE', 'part')
     call add_list_set(table, 'SET_SHELL_LIST', 'SET_SHELL', 'EID', 'element')
     call add_range_set(table, 'SET_SHELL_LIST_GENERATE', 'element')
+    call add_list_set(table, 'SET_SOLID_LIST', 'SET_SOLID', 'EID', 'element')
+    call add_range_set(table, 'SET_SOLID_LIST_GENERATE', 'element')
+    call add_alias(table, 'SET_SOLID_GENERATE')
     call add_segment_set(table)
     call add_column_set(table, 'SET_NODE_COLUMN', 'NID', 'node')
     call add_column_set(table, 'SET_PART_COLUMN', 'PID', 'part')
     call add_column_set(table, 'SET_SHELL_COLUMN', 'EID', 'element')
     call add_general_set(table, 'SET_NODE_GENERAL', 'node', 'NODE')
     call add_general_set(table, 'SET_SHELL_GENERAL', 'element', 'ELEM')
-    call add_general_set(table, 'SET_SEGMENT_GENERAL', 'exposed edge', 'SEG')
+    call add_general_set(table, 'SET_SOLID_GENERAL', 'element', 'ELEM')
+    call add_general_set(table, 'SET_SEGMENT_GENERAL', 'exterior edge or face', 'SEG')
     call add_box(table)
   end subroutine add_mesh_keywords
 
@@ -38,10 +44,10 @@ contains
     call add_field(table, 'NID', 'I8 req >0', 'node number')
     call add_field(table, 'X', 'R16 =0.0 [L]', 'coordinate')
     call add_field(table, 'Y', 'R16 =0.0 [L]', 'coordinate')
-    call add_field(table, 'Z', 'R16 =0.0 [L]', 'the same for all nodes of a plane model')
+    call add_field(table, 'Z', 'R16 =0.0 [L]', 'coordinate; the same for all nodes of a plane model')
     call add_field(table, 'TC', 'I8 =0 >=0 <=7', &
         'held: 1 x, 2 y, 3 z, 4 x y, 5 y z, 6 z x, 7 x y z')
-    call add_field(table, 'RC', 'I8 note >=0 <=7', 'nodes of plane elements do not rotate')
+    call add_field(table, 'RC', 'I8 note >=0 <=7', 'nodes do not rotate')
     call add_keyword(table, 'ELEMENT_SHELL', 'plane elements, counter-clockwise', repeat_from=1)
     call add_card(table)
     call add_field(table, 'EID', 'I8 req >0', 'element number')
@@ -67,6 +73,59 @@ contains
     call add_field(table, 'RR2', 'I8 ignored')
     call add_field(table, 'LOCAL', 'I8 ignored')
   end subroutine add_nodes_and_elements
+
+  !> Elements in space: with their nodes on one card, or on a second one. The name of the second
+  !> form is also what programs write; a deck's name ends at the first blank.
+  subroutine add_solids(table)
+    type(table_t), intent(inout) :: table
+    integer :: row
+    call add_keyword(table, 'ELEMENT_SOLID', 'elements in space; a tetrahedron is 1 2 3 4 4 4'// &
+        ' 4 4, a pyramid 1 2 3 4 5 5 5 5, a wedge 1 2 3 4 5 5 6 6', repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'EID', 'I8 req >0', 'element number')
+    call add_field(table, 'PID', 'I8 req >0', 'part')
+    call add_corners(table)
+    row = table%n
+    call add_keyword(table, 'ELEMENT_SOLID (ten nodes format)', 'the same by two cards: so '// &
+        'where the first card of *ELEMENT_SOLID has EID and PID alone', repeat_from=1)
+    table%keyword(table%n)%canonical_row = row
+    table%keyword(row)%other_form = table%n
+    call add_card(table)
+    call add_field(table, 'EID', 'I8 req >0', 'element number')
+    call add_field(table, 'PID', 'I8 req >0', 'part')
+    call add_card(table)
+    call add_corners(table)
+    call add_field(table, 'N9', 'I8 =0 >=0', 'of quadratic elements: 0')
+    call add_field(table, 'N10', 'I8 =0 >=0', 'of quadratic elements: 0')
+  end subroutine add_solids
+
+  subroutine add_corners(table)
+    type(table_t), intent(inout) :: table
+    integer :: k
+    do k = 1, 4
+      call add_field(table, 'N'//achar(48 + k), 'I8 req >0', &
+          'node; N1 to N4 counter-clockwise seen from N5')
+    end do
+    do k = 5, 8
+      call add_field(table, 'N'//achar(48 + k), 'I8 =0 >=0', 'node, above N'//achar(44 + k))
+    end do
+  end subroutine add_corners
+
+  subroutine add_solid_section(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'SECTION_SOLID', 'form of elements in space', title=.true., &
+        repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'SECID', 'I10 req >0', 'section number')
+    call add_field(table, 'ELFORM', 'I10 =1 0=d', '1 full; 2 mean dilatation; -1 -2 18 -18 62'// &
+        ' incompatible modes; 10 13 60 tetrahedra; 15 115 wedges')
+    call add_field(table, 'AET', 'I10 fixed', 'of other kinds of element')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, 'COHOFF', 'R10 fixed', 'of cohesive elements')
+    call add_field(table, 'GASKEIT', 'R10 fixed', 'of gaskets')
+  end subroutine add_solid_section
 
   subroutine add_parts(table)
     type(table_t), intent(inout) :: table
@@ -272,17 +331,24 @@ contains
   subroutine add_segment_set(table)
     type(table_t), intent(inout) :: table
     integer :: k
-    call add_keyword(table, 'SET_SEGMENT', 'set of element edges', title=.true., required=2, &
-        repeat_from=2)
+    call add_keyword(table, 'SET_SEGMENT', 'set of element edges, in space of faces', &
+        title=.true., required=2, repeat_from=2)
     call add_set_head(table)
     call add_card(table)
-    call add_field(table, 'N1', 'I10 req >0', 'node of an exposed element edge')
-    call add_field(table, 'N2', 'I10 req >0', 'its other node; the order does not matter')
-    call add_field(table, 'N3', 'I10 =0 >=0', '0 or N2')
-    call add_field(table, 'N4', 'I10 =0 >=0', '0 or N2')
+    call add_segment_nodes(table)
     do k = 1, 4
       call add_field(table, 'A'//achar(48 + k), 'R10 fixed')
     end do
   end subroutine add_segment_set
+
+  !> The nodes of a segment.
+  subroutine add_segment_nodes(table)
+    type(table_t), intent(inout) :: table
+    call add_field(table, 'N1', 'I10 req >0', 'node of an exterior element edge or face')
+    call add_field(table, 'N2', 'I10 req >0', 'its next node; the sense does not matter')
+    call add_field(table, 'N3', 'I10 =0 >=0', 'plane: 0 or N2; space: its third node')
+    call add_field(table, 'N4', 'I10 =0 >=0', &
+        'plane: 0 or N2; space: its fourth node, 0 or N3 for a triangle')
+  end subroutine add_segment_nodes
 
 end module deck_keywords_mesh

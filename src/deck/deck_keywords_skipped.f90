@@ -39,9 +39,8 @@ contains
     call skip(table, [character(keyword_length) :: 'HOURGLASS', 'HOURGLASS_TITLE', &
         'CONTROL_HOURGLASS', 'CONTROL_HOURGLASS_936'], &
         'elements are fully integrated, without hourglass modes')
-    call skip(table, [character(keyword_length) :: 'SET_SOLID', 'SET_SOLID_LIST', &
-        'SET_SOLID_TITLE', 'SET_SOLID_LIST_TITLE', 'SET_SOLID_GENERATE', 'SET_SOLID_GENERAL', &
-        'SET_TSHELL', 'SET_TSHELL_LIST'], 'plane models have no such elements')
+    call skip(table, [character(keyword_length) :: 'SET_TSHELL', 'SET_TSHELL_LIST'], &
+        'there are no such elements')
     call skip(table, [character(keyword_length) :: 'SET_BEAM', 'SET_BEAM_LIST', &
         'SET_BEAM_TITLE', 'SET_BEAM_LIST_TITLE', 'SET_BEAM_GENERATE', 'SET_BEAM_GENERAL', &
         'SET_DISCRETE', 'SET_DISCRETE_LIST'], 'elements of this kind are left out')
@@ -169,8 +168,7 @@ contains
         'DATABASE_HISTORY_NODE_LOCAL_ID', 'DATABASE_HISTORY_NODE_SET_LOCAL', &
         'DATABASE_HISTORY_SEATBELT', 'DATABASE_HISTORY_SEATBELT_ID', &
         'DATABASE_HISTORY_SEATBELT_RETRACTOR', 'DATABASE_HISTORY_SEATBELT_SENSOR', &
-        'DATABASE_HISTORY_SEATBELT_SLIPRING', 'DATABASE_HISTORY_SOLID', &
-        'DATABASE_HISTORY_SOLID_ID', 'DATABASE_HISTORY_SOLID_SET', 'DATABASE_HISTORY_SPH', &
+        'DATABASE_HISTORY_SEATBELT_SLIPRING', 'DATABASE_HISTORY_SPH', &
         'DATABASE_HISTORY_SPH_SET', 'DATABASE_HISTORY_TSHELL', 'DATABASE_HISTORY_TSHELL_ID', &
         'DATABASE_HISTORY_TSHELL_SET'], &
         'it asks for output that bipact does not have; see *DATABASE_HISTORY_NODE, _SHELL')

@@ -5,6 +5,7 @@ module deck_reader
   use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: upper, to_text
   use deck_card, only: start_block, read_cards, note_blank_line
+  use deck_check, only: check_dimension
   use deck_data, only: deck_t
   use deck_folders, only: read_folders, read_file_name, find_include
   use deck_match, only: match_name, base_of
@@ -12,7 +13,8 @@ module deck_reader
       report_unused_overrides
   use deck_problems, only: add_note
   use deck_source, only: cursor_t, load_file, next_line
-  use deck_table, only: find_nearest, keyword_used, keyword_skipped, keyword_refused
+  use deck_table, only: find_keyword, find_nearest, keyword_used, keyword_skipped, &
+      keyword_refused
   implicit none
   private
   integer, parameter :: include_depth = 16
@@ -37,6 +39,7 @@ contains
     if (.not. ended) &
         call add_note(deck%problems, path//': no *END; the file was read to its end')
     call report_unused_overrides(overrides, deck)
+    call find_dimension(deck)
   end subroutine read_deck
 
   !> Reads a deck that is one text and includes nothing, as write_echo makes them; name: what
@@ -51,6 +54,7 @@ contains
     deck%file(1)%text = text
     long = .false.
     call read_file(deck, 1, 1, none, long, ended)
+    call find_dimension(deck)
   end subroutine read_deck_text
 
   !> Reads cards that the deck lacks as if they stood at its end: what it leaves open is chosen
@@ -66,6 +70,17 @@ contains
     long = .false.
     call read_file(deck, deck%files, 1, none, long, ended)
   end subroutine read_more
+
+  !> A deck is in space as soon as it has an element there.
+  subroutine find_dimension(deck)
+    type(deck_t), intent(inout) :: deck
+    integer :: b
+    do b = 1, deck%blocks
+      if (deck%table%keyword(deck%block(b)%keyword)%canonical_row &
+          == find_keyword(deck%table, 'ELEMENT_SOLID')) deck%in_space = .true.
+    end do
+    call check_dimension(deck)
+  end subroutine find_dimension
 
   !> Room for the first file, blocks, cards and parameters.
   subroutine start_deck(deck)

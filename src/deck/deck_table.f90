@@ -15,7 +15,8 @@ module deck_table
   integer, parameter, public :: field_honoured = 1  !< used
   integer, parameter, public :: field_tuning = 2    !< of another method: one note, no effect
   integer, parameter, public :: field_fixed = 3     !< must be blank or at its default
-  integer, parameter, public :: field_ignored = 4   !< cannot matter in the plane: accepted
+  integer, parameter, public :: field_ignored = 4   !< cannot matter here: accepted
+  integer, parameter, public :: field_in_space = 5  !< used in space, fixed in the plane
 
   type, public :: field_t
     character(name_length) :: name = ''
@@ -30,6 +31,7 @@ module deck_table
     real(wp) :: high = huge(1.0_wp)
     logical :: low_open = .false.
     logical :: high_open = .false.
+    real(wp) :: plane_high = huge(1.0_wp)  !< its limit in the plane, where that is lower
     character(112) :: words = ''        !< |A|B|: the words that are allowed; blank = any
     character(12) :: units = ''
     character(96) :: help = ''
@@ -59,6 +61,8 @@ module deck_table
     logical :: title_is_id = .false. !< _TITLE means the same as _ID
     logical :: once = .false.      !< at most once per deck
     logical :: noted = .false.     !< read and checked, but without effect: one note
+    logical :: by_dimension = .false. !< has fields whose check waits for the dimension
+    integer :: other_form = 0      !< row of its cards where the first has two fields alone
     type(card_t), allocatable :: card(:)
     character(96) :: help = ''
   end type keyword_t
@@ -76,7 +80,7 @@ module deck_table
   integer, parameter :: first_rows = 512
 
   public :: add_keyword, add_alias, add_card, add_field, find_keyword, find_nearest, &
-      field_index, family_of
+      field_index, family_of, waits_for_dimension
 
 contains
 
@@ -173,7 +177,7 @@ contains
 
   !> Adds a field to the last card. spec holds blank-separated words: kind and width first
   !> ("R10"), then any of "req", "note", "fixed", "ignored", "0=d", "=default", "[units]", ">x",
-  !> ">=x", "<x", "<=x", "|A|B|" (the words allowed).
+  !> ">=x", "<x", "<=x", "plane<=x", "|A|B|" (the words allowed); "space": used in space alone.
   subroutine add_field(table, name, spec, help)
     type(table_t), intent(inout) :: table
     character(*), intent(in) :: name
@@ -195,6 +199,7 @@ contains
           next = word_end(spec, start)
           call apply_word(f, spec(start:next))
         end do
+        if (waits_for_dimension(f)) table%keyword(table%n)%by_dimension = .true.
       end associate
     end associate
   end subroutine add_field
@@ -221,6 +226,8 @@ contains
       f%class = field_fixed
     case ('ignored')
       f%class = field_ignored
+    case ('space')
+      f%class = field_in_space
     case ('0=d')
       f%zero_is_default = .true.
     case default
@@ -231,6 +238,8 @@ contains
         f%units = word
       case ('|')
         f%words = word
+      case ('p')
+        call scan_real(word(8:), f%plane_high, ok)
       case ('>')
         f%low_open = word(2:2) /= '='
         call scan_real(word(merge(2, 3, f%low_open):), f%low, ok)
@@ -240,6 +249,12 @@ contains
       end select
     end select
   end subroutine apply_word
+
+  !> Does it depend on the dimension of the model what a field may be?
+  pure logical function waits_for_dimension(f)
+    type(field_t), intent(in) :: f
+    waits_for_dimension = f%class == field_in_space .or. f%plane_high < huge(1.0_wp)
+  end function waits_for_dimension
 
   !> Row of a keyword by its exact name (upper case, without options); 0 if there is none.
   pure integer function find_keyword(table, name)

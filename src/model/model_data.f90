@@ -20,7 +20,8 @@ module model_data
     integer :: section_id = 0
     integer :: material_id = 0
     integer :: material = 0         !< row in model%material
-    integer :: plane = 0            !< plane_stress or plane_strain
+    integer :: plane = 0            !< plane_stress, plane_strain or in_space
+    character(8) :: form = ''       !< in space: the element that its hexahedra are
     real(wp) :: thickness = 1.0_wp  !< [L]
     logical :: is_rigid = .false.
     integer :: record = 0           !< its card, for messages
@@ -30,6 +31,7 @@ module model_data
   type, public :: section_t
     integer :: id = 0
     integer :: plane = 0
+    character(8) :: form = ''
     real(wp) :: thickness = 1.0_wp
   end type section_t
 
@@ -38,11 +40,11 @@ module model_data
     integer, allocatable :: member(:)  !< rows (not ids) of nodes, parts or elements
   end type set_t
 
-  !> Element edges: rows of their nodes.
+  !> Element edges, in space faces: rows of their nodes, as the elements have them.
   type, public :: segment_set_t
     integer :: id = 0
     integer :: record = 0
-    integer, allocatable :: node(:, :)  !< (2, segments)
+    integer, allocatable :: node(:, :)  !< (2, segments); in space (4), of triangles the last 0
   end type segment_set_t
 
   type, public :: curve_t

@@ -11,6 +11,7 @@ module output_fields
   use deck_names, only: field_names
   use model_data, only: model_t
   use model_state, only: state_t
+  use output_principal, only: fill_principal
   use output_storage, only: mesh_t, field_t
   use output_table, only: next_due
   implicit none
@@ -20,8 +21,8 @@ module output_fields
   type, public :: fields_t
     integer, allocatable :: node(:), cell(:)   !< rows of the model
     type(field_t), allocatable :: field(:)
-    !> (4, 8, cells): sxx, syy, szz, sxy by the displacements of the nodes [F/L3]; only where
-    !> stress is asked for
+    !> (4, or in space 6, dofs of the cells): sxx, syy, szz, sxy, syz, szx by the displacements of
+    !> their nodes [F/L3]; only where stress is asked for
     real(wp), allocatable :: stress_of(:, :)
     integer, allocatable :: cell_first(:), cell_node(:)   !< nodes of each cell, as rows
     real(wp), allocatable :: stress(:, :)      !< (6, cells), only for PRINCIPAL [F/L2]
@@ -141,7 +142,7 @@ contains
     type(fields_t), intent(in) :: fields
     type(mesh_t), intent(out) :: mesh
     integer, allocatable :: number(:)
-    integer :: k, n, at
+    integer :: k, n, at, node(most_nodes)
     allocate (number(model%nodes), mesh%points(3, size(fields%node)))
     allocate (mesh%kind(size(fields%cell)), mesh%offsets(size(fields%cell) + 1))
     allocate (mesh%connectivity(sum([(model%mesh%count_of(fields%cell(k)), &
@@ -153,8 +154,12 @@ contains
     mesh%offsets(1) = 0
     do k = 1, size(fields%cell)
       n = model%mesh%count_of(fields%cell(k))
-      mesh%connectivity(at + 1:at + n) = number(model%mesh%nodes_of(fields%cell(k)))
-      mesh%kind(k) = model%mesh%kind(model%mesh%type(fields%cell(k)))%item%vtk
+      associate (element => model%mesh%kind(model%mesh%type(fields%cell(k)))%item)
+        node(:n) = model%mesh%nodes_of(fields%cell(k))
+        if (allocated(element%vtk_order)) node(:n) = node(element%vtk_order)
+        mesh%connectivity(at + 1:at + n) = number(node(:n))
+        mesh%kind(k) = element%vtk
+      end associate
       at = at + n
       mesh%offsets(k + 1) = at
     end do
@@ -213,7 +218,7 @@ contains
           call find_stress(fields, state%u, values)
         case ('PRINCIPAL')
           call find_stress(fields, state%u, fields%stress)
-          call fill_principal(fields%stress, values)
+          call fill_principal(model%dim, fields%stress, values)
         case ('ENERGY')
           do i = 1, size(fields%cell)
             values(1, i) = half*element_product(system, fields%cell(i), state%u)
@@ -256,26 +261,6 @@ contains
       values(1:dim, k) = x(:, list(k))/divisor
     end do
   end subroutine gather
-
-  !> Principal stresses, the largest first.
-  pure subroutine fill_principal(stress, values)
-    real(wp), intent(in) :: stress(:, :)
-    real(wp), intent(inout) :: values(:, :)
-    real(wp) :: mean, radius, high, low
-    integer :: k
-    do k = 1, size(stress, 2)
-      mean = half*(stress(1, k) + stress(2, k))
-      radius = sqrt((half*(stress(1, k) - stress(2, k)))**2 + stress(4, k)**2)
-      high = mean + radius
-      low = mean - radius
-      values(1, k) = max(high, stress(3, k))
-      values(3, k) = min(low, stress(3, k))
-      values(2, k) = (high + low + stress(3, k)) - values(1, k) - values(3, k)
-      if (stress(3, k) >= high) values(2, k) = high
-      if (stress(3, k) <= low) values(2, k) = low
-      if (stress(3, k) > low .and. stress(3, k) < high) values(2, k) = stress(3, k)
-    end do
-  end subroutine fill_principal
 
   !> What contact knows of nodes, all pairs together: sums of force and pressure, the smallest
   !> gap (not a number where none is watched), the highest status (-1 where there is no

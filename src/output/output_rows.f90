@@ -8,7 +8,7 @@ module output_rows
   use base_status, only: status_t
   use base_timers, only: timers_t, phase_input, phase_assemble, phase_factor, phase_solve, &
       phase_search, phase_contact, phase_output
-  use element_base, only: most_nodes
+  use element_base, only: most_nodes, strains
   use model_data, only: model_t
   use model_state, only: state_t
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
@@ -127,7 +127,7 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: stress(3), x(3, most_nodes), u(3, most_nodes)
+    real(wp) :: stress(6), x(3, most_nodes), u(3, most_nodes)
     integer :: k, e, n, i
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
@@ -145,10 +145,13 @@ contains
           call add_number(file, writer, state%time)
           call add_count(file, model%mesh%id(e))
           call add_count(file, part%id)
-          call add_numbers(file, writer, &
-              [stress(1), stress(2), material%out_of_plane_stress(part%plane, stress), &
-              stress(3), &
-              zero, zero, half*element_product(system, e, state%u)])
+          if (model%dim == 2) then
+            call add_numbers(file, writer, [stress(1), stress(2), &
+                material%out_of_plane_stress(part%plane, stress), stress(3), zero, zero])
+          else
+            call add_numbers(file, writer, stress)
+          end if
+          call add_number(file, writer, half*element_product(system, e, state%u))
           call end_row(file)
         end associate
       end associate

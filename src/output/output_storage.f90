@@ -25,7 +25,7 @@ module output_storage
   end type restart_header_t
 
   !> The mesh of the fields, in the terms of VTK: nodes count from 0, offsets(k) is where the
-  !> nodes of cell k begin, kind 9 is a quadrilateral, 5 a triangle.
+  !> nodes of cell k begin, kind is that of VTK: 9 a quadrilateral, 5 a triangle.
   type, public :: mesh_t
     real(wp), allocatable :: points(:, :)    !< (3, nodes) [L]
     integer, allocatable :: connectivity(:), offsets(:), kind(:)

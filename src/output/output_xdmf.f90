@@ -32,6 +32,12 @@ module output_xdmf
     type(real_writer_t) :: writer
   end type text_t
 
+  !> Cells by their number in VTK, their name and number in XDMF.
+  integer, parameter :: cell_vtk(6) = [5, 9, 10, 14, 13, 12]
+  character(13), parameter :: cell_name(6) = [character(13) :: 'Triangle', 'Quadrilateral', &
+      'Tetrahedron', 'Pyramid', 'Wedge', 'Hexahedron']
+  integer, parameter :: cell_number(6) = [4, 5, 6, 7, 8, 9]
+
 contains
 
   !> Name of a field file by its number.
@@ -239,22 +245,25 @@ contains
     end if
   end subroutine close_text
 
-  !> Cells of one kind, or mixed: then kinds (4 triangle, 5 quadrilateral) and nodes stand
-  !> in the text, for VTKHDF keeps them apart.
+  !> Cells of one kind, or mixed: then kinds by their numbers in XDMF and nodes stand in the text,
+  !> for VTKHDF keeps them apart.
   function topology(mesh, file) result(text)
     type(mesh_t), intent(in) :: mesh
     character(*), intent(in) :: file
     character(:), allocatable :: text, list
     integer :: n, k, m, at
     n = size(mesh%kind)
-    if (all(mesh%kind == 9) .or. all(mesh%kind == 5)) then
-      text = '<Topology TopologyType="'//trim(merge('Quadrilateral', 'Triangle     ', &
-          all(mesh%kind == 9)))//'" NumberOfElements="'//to_text(n)// &
-          '"><DataItem Dimensions="'//to_text(n)// &
-          ' '//to_text(merge(4, 3, all(mesh%kind == 9)))// &
-          '" NumberType="Int" Precision="8" Format="HDF">'//file// &
-          'Connectivity</DataItem></Topology>'
-      return
+    k = 0
+    if (n > 0) k = cell_row(mesh%kind(1))
+    if (k > 0) then
+      if (all(mesh%kind == mesh%kind(1))) then
+        text = '<Topology TopologyType="'//trim(cell_name(k))//'" NumberOfElements="'// &
+            to_text(n)//'"><DataItem Dimensions="'//to_text(n)//' '// &
+            to_text(mesh%offsets(2) - mesh%offsets(1))// &
+            '" NumberType="Int" Precision="8" Format="HDF">'//file// &
+            'Connectivity</DataItem></Topology>'
+        return
+      end if
     end if
     text = '<Topology TopologyType="Mixed" NumberOfElements="'//to_text(n)// &
         '"><DataItem Dimensions="'//to_text(n + size(mesh%connectivity))// &
@@ -262,7 +271,7 @@ contains
     allocate (character(12*(n + size(mesh%connectivity))) :: list)
     at = 0
     do k = 1, n
-      call put_integer(merge(5, 4, mesh%kind(k) == 9), list(at + 1:at + 12))
+      call put_integer(cell_number(cell_row(mesh%kind(k))), list(at + 1:at + 12))
       at = at + 12
       do m = mesh%offsets(k) + 1, mesh%offsets(k + 1)
         call put_integer(mesh%connectivity(m), list(at + 1:at + 12))
@@ -271,6 +280,14 @@ contains
     end do
     text = text//list//'</DataItem></Topology>'
   end function topology
+
+  !> Row of a cell of VTK in the lists of XDMF's names and numbers.
+  pure integer function cell_row(kind)
+    integer, intent(in) :: kind
+    do cell_row = size(cell_vtk), 1, -1
+      if (cell_vtk(cell_row) == kind) return
+    end do
+  end function cell_row
 
   pure function kind_of(components) result(text)
     integer, intent(in) :: components

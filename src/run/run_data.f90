@@ -174,7 +174,7 @@ module run_data
     integer :: rotations = 0           !< looks that found one beyond ROTWARN
     integer :: open_balances = 0       !< evaluations of energies beyond open_balance
     integer :: looked = 0              !< step of the last look at all bodies
-    type(bending_t) :: bending         !< of the elements, by part
+    type(bending_t), allocatable :: bending  !< of the elements, by part; in the plane
     logical :: broken = .false.        !< NaN or infinity: the state is not written
     class(storage_t), allocatable :: storage  !< what can keep fields and restarts
     type(fields_t), allocatable :: fields     !< only with field files

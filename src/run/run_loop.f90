@@ -2,7 +2,7 @@
 !> The step loop.
 module run_loop
   use assembly_bending, only: look_at_bending
-  use assembly_forces, only: largest_rotation, first_inverted
+  use assembly_turns, only: largest_rotation, first_inverted
   use base_kinds, only: wp, zero, one, half
   use base_list, only: swap
   use base_signal, only: stop_asked
@@ -420,7 +420,8 @@ contains
     if (failed(status)) return
     call run%timers%enter(phase_energy)
     call find_strain_energies(run%model, run%system, run%state, run%ledger)
-    if (sum(run%ledger%part_internal) > least_strain*run%ledger%largest) &
+    if (allocated(run%bending) .and. &
+        sum(run%ledger%part_internal) > least_strain*run%ledger%largest) &
         call look_at_bending(run%model, run%system, run%state%u, run%ledger%part_internal, &
         run%state%cycle, run%bending)
     call run%timers%enter(phase_other)
@@ -436,7 +437,7 @@ contains
     call check_all(run%model, run%contact, run%state%u, run%state%cycle, status)
     element = 0
     if (size(run%model%contact) > 0) &
-        element = first_inverted(run%system, run%model%x, run%state%u)
+        element = first_inverted(run%model, run%system, run%state%u)
     if (element > 0) call fail(status, status_numerical, 'element '// &
         to_text(run%model%mesh%id(element))//', at node '//to_text(run%model%node_id( &
         run%model%mesh%node_of(1, element)))//', is turned inside out: its boundary is not '// &
@@ -468,7 +469,7 @@ contains
     integer :: element
     call run%timers%enter(phase_energy)
     call evaluate_ledger(run%model, run%system, run%state, run%ledger)
-    call largest_rotation(run%system, run%model%x, run%state%u, angle, element)
+    call largest_rotation(run%model, run%system, run%state%u, angle, element)
     if (angle*180.0_wp/acos(-one) > run%model%controls%rotation_warning) &
         run%rotations = run%rotations + 1
     if (angle > run%rotation) then

@@ -182,7 +182,7 @@ contains
     origin%left_out = pairs_left_out(run)
     call archive%exchange('origin.left_out', origin%left_out)
     call exchange_moment(archive, run, origin%new_nodal, origin%new_reactions)
-    call exchange_bending(archive, run%bending)
+    if (allocated(run%bending)) call exchange_bending(archive, run%bending)
     call exchange_tables(archive, run%tables)
     call exchange_frames(archive, run, time_told(run))
     call exchange_progress(archive, run)

@@ -2,7 +2,7 @@
 !> From the deck to a run that can start: model, plan, matrices, contact, scheme, factor.
 module run_setup
   use assembly_bending, only: make_bending
-  use assembly_forces, only: first_inverted
+  use assembly_turns, only: first_inverted
   use assembly_system, only: make_system, stiffness_ratio
   use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
@@ -106,7 +106,10 @@ contains
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     run%ledger%staggered = run%scheme%staggered
-    call make_bending(run%model, run%bending)
+    if (run%model%dim == 2) then
+      allocate (run%bending)
+      call make_bending(run%model, run%bending)
+    end if
     if (.not. abs(run%ledger%total) <= huge(zero)) call fail(status, status_numerical, &
         'the initial energy is not finite (NaN or Inf)', &
         hint='check units and initial velocities')
@@ -140,7 +143,7 @@ contains
     call add_message(run%notes, '', 'OVERLAP ADJUST moved '//to_text(size(run%moved))// &
         ' nodes onto obstacles, by '//to_text(farthest)//' at most; the log lists them')
     allocate (run%state%u(run%system%dim, run%model%nodes), source=zero)
-    element = first_inverted(run%system, run%model%x, run%state%u)
+    element = first_inverted(run%model, run%system, run%state%u)
     deallocate (run%state%u)
     if (element > 0) call fail(status, status_deck, 'OVERLAP ADJUST turns element '// &
         to_text(run%model%mesh%id(element))//' inside out', &

@@ -31,10 +31,14 @@ contains
     call find_bodies(model, body)
     do b = 1, maxval(body(:model%nodes - model%bodies))
       if (is_of_rigid(model, body, b)) cycle
-      if (rigid_motions_held(model, system, body, b) == 3) cycle
+      if (rigid_motions_held(model, system, body, b) == rigid_motions(model)) cycle
       if (.not. allocated(shift)) allocate (shift(system%n), source=zero)
-      size_2 = max(maxval(model%x(1, :), body == b) - minval(model%x(1, :), body == b), &
-          maxval(model%x(2, :), body == b) - minval(model%x(2, :), body == b))**2
+      size_2 = zero
+      do i = 1, model%dim
+        size_2 = max(size_2, &
+            maxval(model%x(i, :), body == b) - minval(model%x(i, :), body == b))
+      end do
+      size_2 = size_2**2
       c_2 = zero
       do e = 1, model%mesh%n
         if (body(model%mesh%node_of(1, e)) /= b) cycle
@@ -128,20 +132,42 @@ contains
     end do
   end function root
 
-  !> Rank of the fixed dofs of a body on its two translations and its rotation.
+  !> Those of a body: translations and rotations.
+  pure integer function rigid_motions(model)
+    type(model_t), intent(in) :: model
+    rigid_motions = merge(3, 6, model%dim == 2)
+  end function rigid_motions
+
+  !> Displacement in direction d at x [L] of the rigid motions of a body, rotations times a
+  !> length.
+  pure function rigid_row(d, x, length) result(row)
+    integer, intent(in) :: d
+    real(wp), intent(in) :: x(:), length
+    real(wp) :: row(merge(3, 6, size(x) == 2))
+    row = zero
+    row(d) = one
+    if (size(x) == 2) then
+      row(3) = merge(-x(2), x(1), d == 1)/length
+    else
+      row(4 + mod(d, 3)) = x(1 + mod(d + 1, 3))/length
+      row(4 + mod(d + 1, 3)) = -x(1 + mod(d, 3))/length
+    end if
+  end function rigid_row
+
+  !> Rank of the fixed dofs of a body on its rigid motions.
   pure integer function rigid_motions_held(model, system, body, b) result(rank)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     integer, intent(in) :: body(:), b
-    real(wp) :: row(3), basis(3, 3), length
+    real(wp), dimension(rigid_motions(model)) :: row
+    real(wp) :: basis(rigid_motions(model), rigid_motions(model)), length
     integer :: k, m
     length = maxval(abs(model%x)) + tiny(one)
     rank = 0
     do k = 1, size(system%fixed_list, 2)
       associate (d => system%fixed_list(1, k), i => system%fixed_list(2, k))
         if (body(i) /= b) cycle
-        row = [one, zero, -model%x(2, i)/length]
-        if (d == 2) row = [zero, one, model%x(1, i)/length]
+        row = rigid_row(d, model%x(:, i), length)
       end associate
       row = row/norm2(row)
       do m = 1, rank
@@ -150,7 +176,7 @@ contains
       if (norm2(row) < 1.0e-6_wp) cycle
       rank = rank + 1
       basis(:, rank) = row/norm2(row)
-      if (rank == 3) return
+      if (rank == size(row)) return
     end do
   end function rigid_motions_held
 
@@ -219,7 +245,9 @@ contains
     type(run_t), intent(in) :: run
     type(status_t), intent(inout) :: status
     logical :: is_of(run%model%nodes)
-    real(wp) :: mean(2), centre(2), turn, inertia
+    real(wp), dimension(run%model%dim) :: mean, centre
+    real(wp) :: turn(3), turned, inertia
+    character(:), allocatable :: place
     integer :: e, i, part
     i = maxloc(sum(run%move**2, dim=1), dim=1)
     part = 1
@@ -239,13 +267,22 @@ contains
     do i = 1, run%model%nodes
       if (.not. is_of(i)) cycle
       associate (d => run%model%x(:, i) - centre, m => run%move(:, i) - mean)
-        turn = turn + d(1)*m(2) - d(2)*m(1)
+        turn(3) = turn(3) + d(1)*m(2) - d(2)*m(1)
         inertia = inertia + d(1)**2 + d(2)**2
+        if (run%model%dim == 2) cycle
+        turn(1:2) = turn(1:2) + [d(2)*m(3) - d(3)*m(2), d(3)*m(1) - d(1)*m(3)]
+        inertia = inertia + d(3)**2
       end associate
     end do
+    turned = turn(3)
+    if (run%model%dim == 3) turned = 1.5_wp*norm2(turn)   ! of a round body
+    place = to_text(mean(1))
+    do i = 2, run%model%dim
+      place = place//', '//to_text(mean(i))
+    end do
     call fail(status, status_numerical, 'there is no equilibrium: part '// &
-        to_text(run%model%part(part)%id)//' is not held; it moves by ('//to_text(mean(1))// &
-        ', '//to_text(mean(2))//') and turns by '//to_text(turn/inertia)//' a pass', &
+        to_text(run%model%part(part)%id)//' is not held; it moves by ('//place// &
+        ') and turns by '//to_text(turned/inertia)//' a pass', &
         hint='add supports or friction, or balance the loads')
   end subroutine fail_free
 

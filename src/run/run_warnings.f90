@@ -127,6 +127,7 @@ contains
     real(wp), parameter :: least = 1.0e-6_wp
     character(:), allocatable :: text, others
     integer :: p, worst, parts
+    if (.not. allocated(run%bending)) return
     worst = 0
     parts = 0
     others = ''

@@ -5,6 +5,7 @@ module scene_clauses
   use base_kinds, only: wp
   use deck_data, only: deck_t
   use model_data, only: model_t, segment_owner
+  use model_faces, only: faces_t, find_faces
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -14,9 +15,10 @@ module scene_clauses
     real(wp) :: low(3) = 0.0_wp, high(3) = 0.0_wp
   end type box_t
 
-  !> The element edges that no second element has.
+  !> The element edges, in space faces, that no second element has.
   type, public :: edges_t
-    integer, allocatable :: node(:, :)   !< (2, edges) in the direction of the element
+    !> (2, edges) in the direction of the element; in space (4), of triangles the last 0
+    integer, allocatable :: node(:, :)
     integer, allocatable :: owner(:)     !< element of each
     !> The first edge that begins at a node, and the next that does at the same node; 0 = none
     integer, allocatable :: first(:), next(:)
@@ -51,7 +53,7 @@ contains
     call make_id_map(deck, 'box', 'BOXID', ids, record, maps%box)
   end subroutine read_boxes
 
-  !> Rows of the nodes (kind 'NODE') or elements ('SHELL') of a set. An element lies in a box
+  !> Rows of the nodes (kind 'NODE') or elements of a set. An element lies in a box
   !> when its nodes do. A clause of numbers costs what they are, for there may be many.
   subroutine read_clauses(deck, model, maps, box, head, kind, rows)
     type(deck_t), intent(inout) :: deck
@@ -86,8 +88,8 @@ contains
     rows = pack([(k, k=1, size(in_set))], in_set)
   end subroutine read_clauses
 
-  !> Nodes of the exposed element edges of a set, (2, segments). An edge belongs to a part when
-  !> its element does, and lies in a box when both its nodes do. edges are found when they are
+  !> Nodes of the exterior edges or faces of a set, (2 or 4, segments). One belongs to a part when
+  !> its element does, and lies in a box when all its nodes do. edges are found when they are
   !> not there yet.
   subroutine read_segment_clauses(deck, model, maps, box, head, edges, node)
     type(deck_t), intent(inout) :: deck
@@ -102,7 +104,7 @@ contains
     logical :: adds
     integer :: r, e
     if (deck%problems%count > 0) then
-      allocate (node(2, 0))
+      allocate (node(2*(model%dim - 1), 0))
       return
     end if
     if (.not. allocated(edges%owner)) call find_exposed_edges(model, edges)
@@ -114,14 +116,14 @@ contains
       case ('ALL')
         in_set = adds
       case ('SEG')
-        call find_segment(deck, maps, r, edges, e)
+        call find_segment(deck, maps, r, model%dim, edges, e)
         if (e > 0) in_set(e) = adds
       case default
         call mark_edges(deck, model, maps, box, r, option, edges, named)
         where (named) in_set = adds
       end select
     end do
-    node = reshape(pack(edges%node, spread(in_set, 1, 2)), [2, count(in_set)])
+    node = edges%node(:, pack([(e, e=1, size(in_set))], in_set))
     if (.not. any(in_set) .and. deck%problems%count == 0) &
         call deck%complain(head, 'SID', 'the segment set is empty')
   end subroutine read_segment_clauses
@@ -195,27 +197,32 @@ contains
     if (kind /= 'NODE') named = element
   end subroutine mark_elements
 
-  !> The exposed edge between the nodes E1 and E2; a problem and 0 if there is none.
-  subroutine find_segment(deck, maps, record, edges, e)
+  !> The exterior edge with the nodes E1 and E2, in space the face with those in E1 to E4; a
+  !> problem and 0 if there is none.
+  subroutine find_segment(deck, maps, record, dim, edges, e)
     type(deck_t), intent(inout) :: deck
     type(maps_t), intent(in) :: maps
-    integer, intent(in) :: record
+    integer, intent(in) :: record, dim
     type(edges_t), intent(in) :: edges
     integer, intent(out) :: e
-    integer :: row(most_named), n, k
+    integer :: row(most_named), n, k, m
     call find_named(deck, maps%node, record, 'node', row, n)
-    e = 0
-    if (n == 2) then
-      do k = 1, 2
-        e = edges%first(row(k))
-        do while (e > 0)
-          if (edges%node(2, e) == row(3 - k)) return
-          e = edges%next(e)
-        end do
-      end do
+    if (n == 4) then
+      if (row(4) == row(3)) n = 3
     end if
-    call deck%complain(record, 'E1', &
+    do k = 1, n
+      e = edges%first(row(k))
+      do while (e > 0)
+        if (count(edges%node(:, e) > 0) == n .and. &
+            all([(any(edges%node(:, e) == row(m)), m=1, n)])) return
+        e = edges%next(e)
+      end do
+    end do
+    e = 0
+    if (dim == 2) call deck%complain(record, 'E1', &
         'expected the two nodes of one exposed element edge in E1 and E2')
+    if (dim == 3) call deck%complain(record, 'E1', &
+        'expected the nodes of one exterior element face in E1 to E4')
   end subroutine find_segment
 
   !> Marks exposed edges of the parts or boxes in E1 to E7.
@@ -229,13 +236,15 @@ contains
     type(edges_t), intent(in) :: edges
     logical, allocatable, intent(out) :: named(:)
     logical, allocatable :: node(:), group(:)
+    integer :: e
     if (option == 'PART') then
       call mark_named(deck, maps%part, record, 'part', size(model%part), group)
       named = group(model%mesh%part(edges%owner))
     else
       call mark_named(deck, maps%box, record, 'box', size(box), group)
       node = in_boxes(model, pack(box, group))
-      named = node(edges%node(1, :)) .and. node(edges%node(2, :))
+      named = [(all(node(pack(edges%node(:, e), edges%node(:, e) > 0))), &
+          e=1, size(edges%owner))]
     end if
   end subroutine mark_edges
 
@@ -243,13 +252,17 @@ contains
     type(model_t), intent(in) :: model
     type(box_t), intent(in) :: box(:)
     logical :: is_in(model%nodes)
-    integer :: b
+    logical :: is_here(model%nodes)
+    integer :: b, d
     is_in = .false.
     do b = 1, size(box)
       associate (low => box(b)%low, high => box(b)%high)
-        if (model%z < low(3) .or. model%z > high(3)) cycle
-        is_in = is_in .or. (model%x(1, :) >= low(1) .and. model%x(1, :) <= high(1) &
-            .and. model%x(2, :) >= low(2) .and. model%x(2, :) <= high(2))
+        if (model%dim == 2 .and. (model%z < low(3) .or. model%z > high(3))) cycle
+        is_here = .true.
+        do d = 1, model%dim
+          is_here = is_here .and. model%x(d, :) >= low(d) .and. model%x(d, :) <= high(d)
+        end do
+        is_in = is_in .or. is_here
       end associate
     end do
   end function in_boxes
@@ -259,6 +272,11 @@ contains
     type(edges_t), intent(out) :: edges
     integer, allocatable :: edge(:, :), owner(:)
     integer :: e, f, n
+    if (model%dim == 3) then
+      call find_exterior_faces(model, edges)
+      call chain_edges(model, edges)
+      return
+    end if
     allocate (edge(2, sum([(model%mesh%faces_of(e), e=1, model%mesh%n)])))
     n = 0
     do e = 1, model%mesh%n
@@ -270,12 +288,40 @@ contains
     owner = segment_owner(model, edge)
     edges%node = reshape(pack(edge, spread(owner /= 0, 1, 2)), [2, count(owner /= 0)])
     edges%owner = abs(pack(owner, owner /= 0))
+    call chain_edges(model, edges)
+  end subroutine find_exposed_edges
+
+  subroutine find_exterior_faces(model, edges)
+    type(model_t), intent(in) :: model
+    type(edges_t), intent(inout) :: edges
+    type(faces_t) :: faces
+    integer :: k, n
+    call find_faces(model%mesh, model%nodes, faces)
+    n = count(faces%count(:faces%n) == 1)
+    allocate (edges%node(4, n), edges%owner(n))
+    edges%node = 0
+    n = 0
+    do k = 1, faces%n
+      if (faces%count(k) > 1) cycle
+      n = n + 1
+      edges%owner(n) = faces%owner(k)
+      associate (node => model%mesh%face_of(faces%local(k), faces%owner(k)))
+        edges%node(:size(node), n) = node
+      end associate
+    end do
+  end subroutine find_exterior_faces
+
+  !> Edges by the node at which they begin.
+  subroutine chain_edges(model, edges)
+    type(model_t), intent(in) :: model
+    type(edges_t), intent(inout) :: edges
+    integer :: e
     allocate (edges%first(model%nodes), edges%next(size(edges%owner)))
     edges%first = 0
     do e = 1, size(edges%owner)
       edges%next(e) = edges%first(edges%node(1, e))
       edges%first(edges%node(1, e)) = e
     end do
-  end subroutine find_exposed_edges
+  end subroutine chain_edges
 
 end module scene_clauses

@@ -35,6 +35,11 @@ contains
       call records_of(deck, trim(contact_keyword(k)), 1, other)
       record = merged(record, other)
     end do
+    if (model%dim == 3 .and. size(record) > 0) then
+      call deck%complain(record(1), '', 'expected no contact of plane bodies: the model is '// &
+          'in space', 'contact is not available in space in this version')
+      record = record(:0)
+    end if
     allocate (model%contact(size(record)))
     do k = 1, size(record)
       call read_card(deck, record(k), k, model%contact(k))

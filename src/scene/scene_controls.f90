@@ -423,8 +423,21 @@ contains
       associate (k => deck%table%keyword(deck%block(b)%keyword))
         if (k%noted) &
             call add_note(deck%problems, '*'//trim(k%name)//' has no effect: '//trim(k%help))
+        if (is_of_others(deck, trim(k%canonical))) call add_note(deck%problems, '*'// &
+            trim(deck%block(b)%written)//' is skipped: '//trim(merge('models in space', &
+            'plane models   ', deck%in_space))//' have no such elements')
       end associate
     end do
   end subroutine note_keywords
+
+  !> Is a keyword a set or request of shells in space, or of solids in the plane?
+  pure logical function is_of_others(deck, name)
+    type(deck_t), intent(in) :: deck
+    character(*), intent(in) :: name
+    character(5) :: other
+    other = merge('SHELL', 'SOLID', deck%in_space)
+    is_of_others = index(name, 'SET_'//other) == 1 .or. &
+        index(name, 'DATABASE_HISTORY_'//other) == 1
+  end function is_of_others
 
 end module scene_controls

@@ -6,9 +6,10 @@ module scene_loads
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note, add_warning
-  use model_data, only: model_t, curve_t, load_t, segment_owner
+  use element_face, only: face_areas
+  use model_data, only: model_t, curve_t, load_t
   use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
-  use scene_sets, only: read_segment
+  use scene_sets, only: read_segment, find_owners, corners, segment_text
   implicit none
   private
   public :: read_curves, read_loads, nodes_of, curve_of
@@ -126,7 +127,7 @@ contains
     if (row == 0) allocate (list(0))
   end subroutine nodes_of
 
-  !> *LOAD_NODE_SET, *LOAD_NODE_POINT, *LOAD_SEGMENT_SET, *LOAD_SEGMENT, *LOAD_BODY_X, _Y.
+  !> *LOAD_NODE_SET, *LOAD_NODE_POINT, *LOAD_SEGMENT_SET, *LOAD_SEGMENT, *LOAD_BODY_X, _Y, _Z.
   subroutine read_loads(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
@@ -161,14 +162,14 @@ contains
     logical, intent(in) :: is_set
     type(load_t), intent(inout) :: load
     call nodes_of(deck, model, maps, record, is_set, load%node)
-    allocate (load%force(2, size(load%node)))
+    allocate (load%force(model%dim, size(load%node)))
     load%force = zero
     load%force(deck%integer(record, 'DOF'), :) = 1.0_wp
     load%curve = curve_of(deck, model, maps, record)
     load%factor = deck%real(record, 'SF')
   end subroutine read_nodal
 
-  !> The nodes of a pressure, two for each segment; its forces follow.
+  !> The nodes of a pressure, CORNERS for each segment; its forces follow.
   subroutine read_pressure(deck, model, maps, record, is_set, load)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -186,7 +187,7 @@ contains
       if (row > 0) load%node = reshape(model%segment_set(row)%node, &
           [size(model%segment_set(row)%node)])
     else
-      allocate (load%node(2))
+      allocate (load%node(corners(model)))
       call read_segment(deck, maps, record, load%node)
     end if
   end subroutine read_pressure
@@ -197,28 +198,35 @@ contains
     type(model_t), intent(inout) :: model
     integer, intent(in) :: before
     integer, intent(in) :: record(:)
-    integer, allocatable :: node(:), owner(:)
-    integer :: k, n
+    integer, allocatable :: node(:), segment(:, :), owner(:)
+    integer :: k, n, m
     n = 0
     do k = before + 1, size(record)
       call append(model%load(k)%node, node, n)
     end do
     if (n == 0) return
-    owner = segment_owner(model, reshape(node(:n), [2, n/2]))
+    segment = reshape(node(:n), [corners(model), n/corners(model)])
+    allocate (owner(size(segment, 2)))
+    call find_owners(model, segment, owner)
     n = 0
     do k = before + 1, size(record)
-      call find_pressure(deck, model, record(k), owner(n + 1:), k)
-      n = n + size(model%load(k)%node)/2
+      m = size(model%load(k)%node)/corners(model)
+      if (any(owner(n + 1:n + m) == 0)) then
+        call deck%complain(record(k), 'N1', segment_text(model))
+      else if (model%dim == 2) then
+        call find_pressure(model, owner(n + 1:n + m), k)
+      else
+        call press_faces(model, segment(:, n + 1:n + m), model%load(k))
+      end if
+      n = n + m
     end do
   end subroutine find_pressures
 
   !> A pressure on element edges as forces on their nodes: half of p times length times
   !> thickness on each, against the outward normal of the reference geometry (exact for linear
   !> edges). owner: the elements of its segments, as SEGMENT_OWNER has them.
-  subroutine find_pressure(deck, model, record, owner, row)
-    type(deck_t), intent(inout) :: deck
+  subroutine find_pressure(model, owner, row)
     type(model_t), intent(inout) :: model
-    integer, intent(in) :: record
     integer, intent(in) :: owner(:)
     integer, intent(in) :: row
     real(wp) :: d(2)
@@ -226,10 +234,6 @@ contains
     associate (load => model%load(row))
       allocate (load%force(2, size(load%node)))
       do s = 1, size(load%node)/2
-        if (owner(s) == 0) then
-          call deck%complain(record, 'N1', 'expected two nodes of an exposed element edge')
-          return
-        end if
         d = model%x(:, load%node(2*s)) - model%x(:, load%node(2*s - 1))
         if (owner(s) < 0) d = -d
         d = half*model%part(model%mesh%part(abs(owner(s))))%thickness*[-d(2), d(1)]
@@ -239,20 +243,44 @@ contains
     end associate
   end subroutine find_pressure
 
+  !> A pressure on element faces as forces on their nodes: int N n dA of the reference geometry,
+  !> against the outward normal.
+  subroutine press_faces(model, segment, load)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: segment(:, :)
+    type(load_t), intent(inout) :: load
+    integer :: s, n, m
+    load%node = pack(segment, segment > 0)
+    allocate (load%force(3, size(load%node)))
+    n = 0
+    do s = 1, size(segment, 2)
+      m = count(segment(:, s) > 0)
+      call face_areas(model%x(:, segment(:m, s)), load%force(:, n + 1:n + m))
+      n = n + m
+    end do
+    load%force = -load%force
+  end subroutine press_faces
+
   subroutine read_gravity(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
-    character(11), parameter :: keyword(2) = ['LOAD_BODY_X', 'LOAD_BODY_Y']
-    integer, allocatable :: record(:), other(:)
-    integer :: k, x_loads
-    call records_of(deck, keyword(1), 1, record)
-    call records_of(deck, keyword(2), 1, other)
-    x_loads = size(record)
-    record = [record, other]
+    character, parameter :: axis(3) = ['X', 'Y', 'Z']
+    integer, allocatable :: record(:), other(:), direction(:)
+    integer :: k, d
+    allocate (record(0), direction(0))
+    do d = 1, 3
+      call records_of(deck, 'LOAD_BODY_'//axis(d), 1, other)
+      record = [record, other]
+      direction = [direction, spread(d, 1, size(other))]
+      if (d <= model%dim .or. size(other) == 0) cycle
+      call deck%complain(other(1), '', '*LOAD_BODY_Z is not available in this version', &
+          'models are plane')
+      return
+    end do
     allocate (model%gravity(size(record)))
     do k = 1, size(record)
-      model%gravity(k)%direction = merge(1, 2, k <= x_loads)
+      model%gravity(k)%direction = direction(k)
       model%gravity(k)%curve = curve_of(deck, model, maps, record(k))
       model%gravity(k)%factor = deck%real(record(k), 'SF')
     end do

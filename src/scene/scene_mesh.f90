@@ -6,7 +6,9 @@ module scene_mesh
   use deck_data, only: deck_t
   use deck_problems, only: add_note, full, add_problem
   use model_data, only: model_t
+  use scene_faces, only: check_faces, warn_of_tetrahedra
   use scene_ids, only: maps_t, make_id_map, records_of
+  use scene_solids, only: read_solids
   implicit none
   private
   public :: read_nodes, read_elements, check_mesh
@@ -21,14 +23,17 @@ contains
     integer, allocatable :: record(:)
     integer :: k, n, held
     real(wp) :: z
-    !> Directions x, y that TC = 1 to 7 holds (z, 3, is held in a plane model).
-    logical, parameter :: holds(2, 7) = reshape([.true., .false., .false., .true., .false., &
-        .false., .true., .true., .false., .true., .true., .false., .true., .true.], [2, 7])
+    !> Directions x, y, z that TC = 1 to 7 holds (z is held in a plane model).
+    logical, parameter :: yes = .true., no = .false.
+    logical, parameter :: holds(3, 7) = reshape([yes, no, no, no, yes, no, no, no, yes, &
+        yes, yes, no, no, yes, yes, yes, no, yes, yes, yes, yes], [3, 7])
     call records_of(deck, 'NODE', 1, record)
     n = size(record)
     model%nodes = n
     model%mesh_nodes = n
-    allocate (model%node_id(n), model%x(2, n), model%v0(2, n), model%fixed(2, n))
+    if (deck%in_space) model%dim = 3
+    allocate (model%node_id(n), model%x(model%dim, n), model%v0(model%dim, n), &
+        model%fixed(model%dim, n))
     model%v0 = zero
     model%fixed = .false.
     do k = 1, n
@@ -38,18 +43,44 @@ contains
       z = deck%number_at(record(k), 4)
       if (k == 1) model%z = z
       held = nint(deck%number_at(record(k), 5))
-      if (held > 0) model%fixed(:, k) = holds(:, held)
-      if (abs(z - model%z) > zero) call deck%complain(record(k), 'Z', &
+      if (held > 0) model%fixed(:, k) = holds(:model%dim, held)
+      if (model%dim == 3) then
+        model%x(3, k) = z
+      else if (abs(z - model%z) > zero) then
+        call deck%complain(record(k), 'Z', &
           'expected the z of the first node: the model is plane')
+      end if
     end do
     call make_id_map(deck, 'node', 'NID', model%node_id, record, maps%node)
   end subroutine read_nodes
 
-  !> *ELEMENT_SHELL, and *ELEMENT_BEAM only to be left out.
+  !> *ELEMENT_SHELL or *ELEMENT_SOLID, and *ELEMENT_BEAM only to be left out.
   subroutine read_elements(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
+    integer :: shell
+    shell = deck%next('ELEMENT_SHELL', 1, 0)
+    if (deck%in_space) then
+      if (shell > 0) call deck%complain(shell, '', 'expected no *ELEMENT_SHELL beside '// &
+          '*ELEMENT_SOLID: a model is plane or in space', 'the first solid is at '// &
+          deck%place(deck%next('ELEMENT_SOLID', 1, 0)))
+      call read_solids(deck, model, maps)
+    else
+      call read_shells(deck, model, maps)
+    end if
+    call model%mesh%make_blocks()
+    call make_id_map(deck, 'element', 'EID', model%mesh%id, model%mesh%record, &
+        maps%element)
+    if (model%mesh%n == 0) &
+        call add_problem(deck%problems, deck%file(1)%path//': the deck has no *ELEMENT_SHELL')
+    call read_beams(deck, maps)
+  end subroutine read_elements
+
+  subroutine read_shells(deck, model, maps)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    type(maps_t), intent(in) :: maps
     integer, allocatable :: record(:)
     integer :: k, n, part, corner(4)
     call records_of(deck, 'ELEMENT_SHELL', 1, record)
@@ -69,13 +100,7 @@ contains
         end if
       end associate
     end do
-    call model%mesh%make_blocks()
-    call make_id_map(deck, 'element', 'EID', model%mesh%id, model%mesh%record, &
-        maps%element)
-    if (n == 0) &
-        call add_problem(deck%problems, deck%file(1)%path//': the deck has no *ELEMENT_SHELL')
-    call read_beams(deck, maps)
-  end subroutine read_elements
+  end subroutine read_shells
 
   subroutine read_corners(deck, record, maps, corner)
     type(deck_t), intent(inout) :: deck
@@ -119,6 +144,8 @@ contains
     integer, allocatable :: record(:)
     integer :: k
     call check_shapes(deck, model)
+    if (model%dim == 3 .and. deck%problems%count == 0) call check_faces(deck, model)
+    if (model%dim == 3) call warn_of_tetrahedra(deck, model)
     allocate (used(model%nodes), part_used(size(model%part)))
     used = .false.
     part_used = .false.
@@ -141,8 +168,15 @@ contains
   subroutine check_shapes(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
+    character(:), allocatable :: fault, hint
     real(wp) :: jacobian
     integer :: e
+    fault = ' is clockwise, degenerate or not convex'
+    hint = 'list its nodes counter-clockwise'
+    if (model%dim == 3) then
+      fault = ' is inside out, degenerate or too distorted: its Jacobian is not positive'
+      hint = 'list N1 to N4 counter-clockwise as seen from the other nodes'
+    end if
     do e = 1, model%mesh%n
       associate (element => model%mesh%kind(model%mesh%type(e))%item)
         if (element%name == 'TRI3' .and. model%controls%mass == 'DISPERSION') &
@@ -150,11 +184,14 @@ contains
             '', 'element '//to_text(model%mesh%id(e))// &
             ' is a triangle: the mass DISPERSION is defined for quadrilaterals', &
             'choose another TYPE on *BIPACT_MASS')
+        if (element%dim == 3 .and. element%nodes < 8 .and. model%controls%mass == &
+            'DISPERSION') call deck%complain(model%mesh%record(e), '', 'element '// &
+            to_text(model%mesh%id(e))//' is no hexahedron: the mass DISPERSION is defined '// &
+            'for those', 'choose another TYPE on *BIPACT_MASS')
         jacobian = element%smallest_jacobian(model%x(:, model%mesh%nodes_of(e)))
         if (jacobian > zero) cycle
         call deck%complain(model%mesh%record(e), '', 'element '// &
-            to_text(model%mesh%id(e))//' is clockwise, degenerate or not convex', &
-            'list its nodes counter-clockwise')
+            to_text(model%mesh%id(e))//fault, hint)
         if (full(deck%problems)) return
       end associate
     end do

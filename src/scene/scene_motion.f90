@@ -14,7 +14,13 @@ module scene_motion
   private
   public :: read_supports, read_motions, read_initial_velocities
 
-  character, parameter :: axis(2) = ['X', 'Y']
+  character, parameter :: axis(3) = ['X', 'Y', 'Z']
+
+  !> A rotation: angular velocity [1/T] about an axis through a centre [L].
+  type :: spin_t
+    real(wp) :: omega = zero
+    real(wp) :: axis(3) = [zero, zero, one], centre(3) = zero
+  end type spin_t
 
 contains
 
@@ -24,13 +30,14 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
     integer, allocatable :: list(:)
-    integer :: k, r
+    integer :: k, r, d
     do k = 1, 2
       r = deck%next('BOUNDARY_SPC_'//trim(merge('SET ', 'NODE', k == 1)), 1, 0)
       do while (r > 0)
         call nodes_of(deck, model, maps, r, k == 1, list)
-        if (deck%integer(r, 'DOFX') == 1) model%fixed(1, list) = .true.
-        if (deck%integer(r, 'DOFY') == 1) model%fixed(2, list) = .true.
+        do d = 1, model%dim
+          if (deck%integer(r, 'DOF'//axis(d)) == 1) model%fixed(d, list) = .true.
+        end do
         r = deck%next('BOUNDARY_SPC_'//trim(merge('SET ', 'NODE', k == 1)), 1, r)
       end do
     end do
@@ -46,7 +53,7 @@ contains
     integer :: k
     call records_of(deck, 'BOUNDARY_PRESCRIBED_MOTION_SET', 1, set_record)
     call records_of(deck, 'BOUNDARY_PRESCRIBED_MOTION_NODE', 1, record)
-    allocate (model%motion(size(set_record) + size(record)), owner(2, model%nodes))
+    allocate (model%motion(size(set_record) + size(record)), owner(model%dim, model%nodes))
     owner = 0
     record = [set_record, record]
     do k = 1, size(record)
@@ -109,6 +116,7 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
     integer, allocatable :: owner(:), list(:)
+    type(spin_t) :: still
     integer :: k, r
     allocate (owner(model%nodes))
     owner = 0
@@ -120,13 +128,13 @@ contains
         call nodes_of(deck, model, maps, r, .true., list)
       end if
       if (deck%follow(r, 2) > 0) &
-          call give_velocity(deck, model, deck%follow(r, 2), list, zero, [zero, zero], owner)
+          call give_velocity(deck, model, deck%follow(r, 2), list, still, owner)
       r = deck%next('INITIAL_VELOCITY', 1, r)
     end do
     r = deck%next('INITIAL_VELOCITY_NODE', 1, 0)
     do while (r > 0)
       call nodes_of(deck, model, maps, r, .false., list)
-      call give_velocity(deck, model, r, list, zero, [zero, zero], owner)
+      call give_velocity(deck, model, r, list, still, owner)
       r = deck%next('INITIAL_VELOCITY_NODE', 1, r)
     end do
     r = deck%next('INITIAL_VELOCITY_GENERATION', 1, 0)
@@ -160,19 +168,25 @@ contains
     integer, intent(in) :: record
     integer, intent(inout) :: owner(:)
     integer, allocatable :: list(:)
-    real(wp) :: omega
-    integer :: second
+    type(spin_t) :: spin
+    integer :: second, d
     second = deck%follow(record, 2)
     if (second == 0) return
     call generation_nodes(deck, model, maps, record, list)
-    omega = deck%real(record, 'OMEGA')
-    if (abs(abs(deck%real(second, 'NZ')) - one) > zero) then
+    spin%omega = deck%real(record, 'OMEGA')
+    spin%centre = [(deck%real(second, axis(d)//'C'), d=1, 3)]
+    if (model%dim == 3) then
+      if (.not. deck%is_given(second, 'NZ') .and. any(abs([deck%real(second, 'NX'), &
+          deck%real(second, 'NY')]) > zero)) spin%axis(3) = zero
+      spin%axis = [deck%real(second, 'NX'), deck%real(second, 'NY'), &
+          spin%axis(3)*deck%real(second, 'NZ')]
+      spin%axis = spin%axis/norm2(spin%axis)
+    else if (abs(abs(deck%real(second, 'NZ')) - one) > zero) then
       call deck%complain(second, 'NZ', 'expected 1 or -1: the axis of rotation is z')
     else
-      omega = sign(omega, omega*deck%real(second, 'NZ'))
+      spin%omega = sign(spin%omega, spin%omega*deck%real(second, 'NZ'))
     end if
-    call give_velocity(deck, model, record, list, omega, &
-        [deck%real(second, 'XC'), deck%real(second, 'YC')], owner)
+    call give_velocity(deck, model, record, list, spin, owner)
   end subroutine generate_velocity
 
   !> Nodes of a part set (STYP 1), a part (2) or a node set (3); id 0 = all nodes.
@@ -211,22 +225,28 @@ contains
     list = pack([(k, k=1, model%nodes)], taken)
   end subroutine generation_nodes
 
-  subroutine give_velocity(deck, model, record, list, omega, centre, owner)
+  !> v = V + omega n x (X - C) for the nodes of a list.
+  subroutine give_velocity(deck, model, record, list, spin, owner)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     integer, intent(in) :: record
     integer, intent(in) :: list(:)
-    real(wp), intent(in) :: omega, centre(2)
+    type(spin_t), intent(in) :: spin
     integer, intent(inout) :: owner(:)
-    real(wp) :: given(2), v(2)
-    integer :: k
+    real(wp) :: given(model%dim), v(model%dim), lever(3), omega(3)
+    integer :: k, d
     logical :: told
     told = .false.
-    given = [deck%real(record, 'VX'), deck%real(record, 'VY')]
+    given = [(deck%real(record, 'V'//axis(d)), d=1, model%dim)]
+    omega = spin%omega*spin%axis
+    lever = zero
     do k = 1, size(list)
-      associate (i => list(k))
-        v(1) = given(1) - omega*(model%x(2, i) - centre(2))
-        v(2) = given(2) + omega*(model%x(1, i) - centre(1))
+      associate (i => list(k), c => spin%centre)
+        lever(:model%dim) = model%x(:, i) - c(:model%dim)
+        v(1) = given(1) - omega(3)*lever(2)
+        v(2) = given(2) + omega(3)*lever(1)
+        if (model%dim == 3) v = given + [omega(2)*lever(3) - omega(3)*lever(2), &
+            omega(3)*lever(1) - omega(1)*lever(3), omega(1)*lever(2) - omega(2)*lever(1)]
         if (.not. told .and. owner(i) > 0 .and. owner(i) /= record) then
           told = any(abs(model%v0(:, i) - v) > zero)
           if (told) call deck%complain(record, 'VX', 'node '//to_text(model%node_id(i))// &

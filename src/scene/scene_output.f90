@@ -21,6 +21,7 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
     type(set_t) :: no_set(0)
+    character(:), allocatable :: element
     integer :: k
     associate (r => model%requests)
       do k = 1, table_count
@@ -33,15 +34,15 @@ contains
           r%history_node)
       call read_history(deck, 'DATABASE_HISTORY_NODE_SET', 'node set', maps%node_set, &
           model%node_set, r%history_node)
-      call read_history(deck, 'DATABASE_HISTORY_SHELL', 'element', maps%element, no_set, &
+      element = 'DATABASE_HISTORY_'//merge('SOLID', 'SHELL', model%dim == 3)
+      call read_history(deck, element, 'element', maps%element, no_set, r%history_element)
+      call read_history(deck, element//'_ID', 'element', maps%element, no_set, &
           r%history_element)
-      call read_history(deck, 'DATABASE_HISTORY_SHELL_ID', 'element', maps%element, no_set, &
-          r%history_element)
-      call read_history(deck, 'DATABASE_HISTORY_SHELL_SET', 'element set', maps%element_set, &
+      call read_history(deck, element//'_SET', 'element set', maps%element_set, &
           model%element_set, r%history_element)
       call drop_empty(deck, table_nodout, '*DATABASE_HISTORY_NODE', &
           size(r%history_node) == 0, r%interval)
-      call drop_empty(deck, table_elout, '*DATABASE_HISTORY_SHELL', &
+      call drop_empty(deck, table_elout, '*'//element, &
           size(r%history_element) == 0, r%interval)
       call drop_empty(deck, table_rcforc, 'contact', size(model%contact) == 0, r%interval)
       call drop_empty(deck, table_rwforc, '*RIGIDWALL', size(model%wall) == 0, r%interval)

@@ -5,10 +5,11 @@ module scene_parts
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_note
-  use material_base, only: plane_stress, plane_strain
+  use material_base, only: plane_stress, plane_strain, in_space
   use material_registry, only: make_material, material_keywords, max_constants
   use model_data, only: model_t, section_t
   use scene_ids, only: maps_t, make_id_map, records_of
+  use scene_solids, only: form_of
   implicit none
   private
   public :: read_materials, read_parts
@@ -57,14 +58,17 @@ contains
     end associate
   end function constants_of
 
-  !> *SECTION_SHELL and *PART; materials must have been read.
+  !> *SECTION_SHELL, *SECTION_SOLID and *PART; materials must have been read.
   subroutine read_parts(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
     type(section_t), allocatable :: section(:)
+    character(:), allocatable :: keyword
     integer, allocatable :: record(:), other(:)
     integer :: k, row
+    keyword = '*SECTION_SHELL'
+    if (deck%in_space) keyword = '*SECTION_SOLID'
     call read_sections(deck, section, maps)
     call records_of(deck, 'PART', 2, record)
     call records_of(deck, 'PART_INERTIA', 2, other)
@@ -81,20 +85,26 @@ contains
         if (p%section_id == 0 .or. p%material_id == 0) then
           call deck%complain(record(k), 'SECID', 'part '//to_text(p%id)//' has no section '// &
               'or no material (SECID '//to_text(p%section_id)//', MID '// &
-              to_text(p%material_id)//')', 'name a *SECTION_SHELL and a *MAT_ELASTIC')
+              to_text(p%material_id)//')', 'name a '//keyword//' and a *MAT_ELASTIC')
           cycle
         end if
         if (row == 0) then
           call deck%complain(record(k), 'SECID', 'section '//to_text(p%section_id)// &
-              ' is not defined', 'add a *SECTION_SHELL with this number')
+              ' is not defined', 'add a '//keyword//' with this number')
+        else if ((section(row)%plane == in_space) .neqv. deck%in_space) then
+          call deck%complain(record(k), 'SECID', 'expected the number of a '//keyword, &
+              'shells are plane, solids are in space')
         else
           p%plane = section(row)%plane
+          p%form = section(row)%form
           p%thickness = section(row)%thickness
         end if
         p%material = maps%material%find(p%material_id)
         if (p%material == 0) call deck%complain(record(k), 'MID', 'material '// &
             to_text(p%material_id)//' is not defined', 'add a *MAT_ELASTIC with this number')
         if (p%material > 0) p%is_rigid = model%material(p%material)%item%is_rigid
+        if (p%is_rigid .and. deck%in_space) call deck%complain(record(k), 'MID', &
+            '*MAT_RIGID is not available in space in this version')
       end associate
     end do
     call make_id_map(deck, 'part', 'PID', model%part%id, record, maps%part)
@@ -104,14 +114,22 @@ contains
     type(deck_t), intent(inout) :: deck
     type(section_t), allocatable, intent(out) :: section(:)
     type(maps_t), intent(inout) :: maps
-    integer, allocatable :: record(:), ids(:)
-    integer :: k
+    integer, allocatable :: record(:), solid(:), ids(:)
+    integer :: k, shells
     call records_of(deck, 'SECTION_SHELL', 1, record)
+    call records_of(deck, 'SECTION_SOLID', 1, solid)
+    shells = size(record)
+    record = [record, solid]
     allocate (section(size(record)), ids(size(record)))
     do k = 1, size(record)
       associate (r => record(k))
         ids(k) = deck%integer(r, 'SECID')
         section(k)%id = ids(k)
+        if (k > shells) then
+          section(k)%plane = in_space
+          if (deck%in_space) call form_of(deck, r, deck%integer(r, 'ELFORM'), section(k)%form)
+          cycle
+        end if
         section(k)%plane = deck%integer(r, 'ELFORM')
         if (section(k)%plane /= plane_stress .and. section(k)%plane /= plane_strain) then
           call deck%complain(r, 'ELFORM', 'expected 12 (plane stress) or 13 (plane strain)', &

@@ -1,16 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Sets of nodes, parts, elements and element edges: from cards to rows of the model.
+!> Sets of nodes, parts, elements and element edges or faces: from cards to rows of the model.
 module scene_sets
   use base_list, only: append
   use base_sort, only: first_not_below
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use model_data, only: model_t, set_t, segment_set_t, segment_owner
+  use model_faces, only: orient_segments
   use scene_clauses, only: box_t, edges_t, read_boxes, read_clauses, read_segment_clauses
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
-  public :: read_sets, read_segment
+  public :: read_sets, read_segment, find_owners, corners, segment_text
 
 contains
 
@@ -25,8 +26,8 @@ contains
         maps%node_set)
     call read_set_kind(deck, model, maps, box, 'PART', 'part', maps%part, model%part_set, &
         maps%part_set)
-    call read_set_kind(deck, model, maps, box, 'SHELL', 'element', maps%element, &
-        model%element_set, maps%element_set)
+    call read_set_kind(deck, model, maps, box, merge('SOLID', 'SHELL', model%dim == 3), &
+        'element', maps%element, model%element_set, maps%element_set)
     call read_segment_sets(deck, model, maps, box)
   end subroutine read_sets
 
@@ -151,7 +152,7 @@ contains
         cycle
       end if
       n = deck%block(deck%record(head(k))%block)%last - head(k)
-      allocate (model%segment_set(k)%node(2, n))
+      allocate (model%segment_set(k)%node(corners(model), n))
       model%segment_set(k)%id = ids(k)
       model%segment_set(k)%record = head(k)
       do r = 1, n
@@ -162,11 +163,38 @@ contains
     call make_id_map(deck, 'segment set', 'SID', ids, head, maps%segment_set)
   end subroutine read_segment_sets
 
-  !> The segments of all sets must be exposed edges.
+  !> Numbers that a segment has: two nodes, in space four.
+  pure integer function corners(model)
+    type(model_t), intent(in) :: model
+    corners = 2*(model%dim - 1)
+  end function corners
+
+  !> The elements of segments (corners, n), 0 where one is no exterior edge or face; in the plane
+  !> with the sign of SEGMENT_OWNER, in space the segments are put as their elements have them.
+  subroutine find_owners(model, segment, owner)
+    type(model_t), intent(in) :: model
+    integer, intent(inout) :: segment(:, :)
+    integer, intent(out) :: owner(:)
+    if (model%dim == 3) then
+      call orient_segments(model%mesh, model%nodes, segment, owner)
+    else
+      owner = segment_owner(model, segment)
+    end if
+  end subroutine find_owners
+
+  !> What a segment is to be.
+  pure function segment_text(model) result(text)
+    type(model_t), intent(in) :: model
+    character(:), allocatable :: text
+    text = 'expected two nodes of an exposed element edge'
+    if (model%dim == 3) text = 'expected the nodes of an exterior element face'
+  end function segment_text
+
+  !> The segments of all sets must be exterior edges or faces.
   subroutine check_segments(deck, model)
     type(deck_t), intent(inout) :: deck
-    type(model_t), intent(in) :: model
-    integer, allocatable :: node(:), owner(:)
+    type(model_t), intent(inout) :: model
+    integer, allocatable :: node(:), segment(:, :), owner(:)
     integer :: k, r, n
     n = 0
     do k = 1, size(model%segment_set)
@@ -175,30 +203,36 @@ contains
       end associate
     end do
     if (n == 0) return
-    owner = segment_owner(model, reshape(node(:n), [2, n/2]))
+    segment = reshape(node(:n), [corners(model), n/corners(model)])
+    allocate (owner(size(segment, 2)))
+    call find_owners(model, segment, owner)
     n = 0
     do k = 1, size(model%segment_set)
       do r = 1, size(model%segment_set(k)%node, 2)
         n = n + 1
+        model%segment_set(k)%node(:, r) = segment(:, n)
         if (owner(n) == 0) call deck%complain(model%segment_set(k)%record + r, 'N1', &
-            'expected two nodes of an exposed element edge')
+            segment_text(model))
       end do
     end do
   end subroutine check_segments
 
-  !> Rows of the two nodes of a segment (fields N1, N2; N3 and N4 must be 0 or N2).
+  !> Rows of the nodes of a segment: fields N1 and N2, N3 and N4 are 0 or N2; in space N1 to N3
+  !> and N4, which is 0 or N3 for a triangle.
   subroutine read_segment(deck, maps, record, node)
     type(deck_t), intent(inout) :: deck
     type(maps_t), intent(in) :: maps
     integer, intent(in) :: record
-    integer, intent(out) :: node(2)
+    integer, intent(out) :: node(:)
     character(2), parameter :: name(4) = ['N1', 'N2', 'N3', 'N4']
     integer :: m, id
-    do m = 1, 2
+    node = 0
+    do m = 1, size(node)
+      if (m == 4 .and. any(deck%integer(record, 'N4') == [0, deck%integer(record, 'N3')])) exit
       node(m) = find_or_complain(deck, maps%node, record, name(m), &
           deck%integer(record, name(m)), 'node')
     end do
-    do m = 3, 4
+    do m = size(node) + 1, 4
       id = deck%integer(record, name(m))
       if (id /= 0 .and. id /= deck%integer(record, 'N2')) call deck%complain(record, name(m), &
           'expected 0 or N2: edges of plane elements have two nodes')

@@ -28,6 +28,10 @@ contains
       call records_of(deck, trim(wall_keyword(k)), 1, other)
       record = merged(record, other)
     end do
+    if (model%dim == 3 .and. size(record) > 0) then
+      call deck%complain(record(1), '', 'walls are not available in space in this version')
+      record = record(:0)
+    end if
     allocate (model%wall(size(record)))
     do k = 1, size(record)
       associate (wall => model%wall(k), r => record(k))

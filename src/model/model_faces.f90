@@ -1,0 +1,147 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Faces of elements in space: those that no second element has are the surface of the bodies.
+!> Faces are found again by their smallest node, under which they are chained.
+module model_faces
+  use model_mesh, only: mesh_t
+  implicit none
+  private
+
+  type, public :: faces_t
+    integer :: n = 0
+    integer, allocatable :: owner(:)   !< (n) element
+    integer, allocatable :: local(:)   !< (n) its face
+    integer, allocatable :: count(:)   !< (n) elements that have this face
+    integer, allocatable :: first(:)   !< (nodes) the first face whose smallest node it is
+    integer, allocatable :: next(:)    !< (n) the next one; 0 = none
+  end type faces_t
+
+  public :: find_faces, face_at, find_hanging, orient_segments
+
+contains
+
+  !> The faces of all elements, each once, with the element that has it first.
+  subroutine find_faces(mesh, nodes, faces)
+    type(mesh_t), intent(in) :: mesh
+    integer, intent(in) :: nodes
+    type(faces_t), intent(out) :: faces
+    integer :: e, f, k, m
+    m = 0
+    do e = 1, mesh%n
+      m = m + mesh%faces_of(e)
+    end do
+    allocate (faces%owner(m), faces%local(m), faces%count(m), faces%next(m), &
+        faces%first(nodes))
+    faces%first = 0
+    do e = 1, mesh%n
+      do f = 1, mesh%faces_of(e)
+        associate (node => mesh%face_of(f, e))
+          k = face_at(mesh, faces, node)
+          if (k > 0) then
+            faces%count(k) = faces%count(k) + 1
+            cycle
+          end if
+          faces%n = faces%n + 1
+          k = faces%n
+          faces%owner(k) = e
+          faces%local(k) = f
+          faces%count(k) = 1
+          faces%next(k) = faces%first(minval(node))
+          faces%first(minval(node)) = k
+        end associate
+      end do
+    end do
+  end subroutine find_faces
+
+  !> The face with these nodes, in any order; 0 = none.
+  pure integer function face_at(mesh, faces, node)
+    type(mesh_t), intent(in) :: mesh
+    type(faces_t), intent(in) :: faces
+    integer, intent(in) :: node(:)
+    integer :: k
+    face_at = faces%first(minval(node))
+    do while (face_at > 0)
+      associate (other => mesh%face_of(faces%local(face_at), faces%owner(face_at)))
+        if (size(other) == size(node)) then
+          if (all([(any(other == node(k)), k=1, size(node))])) return
+        end if
+      end associate
+      face_at = faces%next(face_at)
+    end do
+  end function face_at
+
+  !> The first exterior triangle that lies on half an exterior quadrilateral, which hangs there:
+  !> the elements of both; 0 = none.
+  subroutine find_hanging(mesh, nodes, faces, element)
+    type(mesh_t), intent(in) :: mesh
+    integer, intent(in) :: nodes
+    type(faces_t), intent(in) :: faces
+    integer, intent(out) :: element(2)
+    integer, allocatable :: first(:), next(:, :)
+    integer :: k, m, q, i
+    element = 0
+    if (.not. any(sizes(mesh, faces) == 3) .or. .not. any(sizes(mesh, faces) == 4)) return
+    ! The quadrilaterals at each node: 4 q + m is corner m + 1 of face q.
+    allocate (first(nodes), next(0:3, faces%n))
+    first = 0
+    do k = 1, faces%n
+      associate (node => mesh%face_of(faces%local(k), faces%owner(k)))
+        if (size(node) /= 4 .or. faces%count(k) > 1) cycle
+        do m = 0, 3
+          next(m, k) = first(node(m + 1))
+          first(node(m + 1)) = 4*k + m
+        end do
+      end associate
+    end do
+    do k = 1, faces%n
+      associate (node => mesh%face_of(faces%local(k), faces%owner(k)))
+        if (size(node) /= 3 .or. faces%count(k) > 1) cycle
+        q = first(node(1))
+        do while (q > 0)
+          associate (other => mesh%face_of(faces%local(q/4), faces%owner(q/4)))
+            if (all([(any(other == node(i)), i=2, 3)])) then
+              element = [faces%owner(k), faces%owner(q/4)]
+              return
+            end if
+          end associate
+          q = next(mod(q, 4), q/4)
+        end do
+      end associate
+    end do
+  end subroutine find_hanging
+
+  !> Nodes of each face.
+  pure function sizes(mesh, faces) result(n)
+    type(mesh_t), intent(in) :: mesh
+    type(faces_t), intent(in) :: faces
+    integer :: n(faces%n)
+    integer :: k
+    do k = 1, faces%n
+      associate (e => faces%owner(k))
+        n(k) = mesh%kind(mesh%type(e))%item%face_size(faces%local(k))
+      end associate
+    end do
+  end function sizes
+
+  !> Segments (4, n), of triangles the last node 0, in the order of the faces that they are, seen
+  !> from outside counter-clockwise; owner: their elements, 0 where a segment is no exterior
+  !> face.
+  subroutine orient_segments(mesh, nodes, segment, owner)
+    type(mesh_t), intent(in) :: mesh
+    integer, intent(in) :: nodes
+    integer, intent(inout) :: segment(:, :)
+    integer, intent(out) :: owner(:)
+    type(faces_t) :: faces
+    integer :: s, k, m
+    call find_faces(mesh, nodes, faces)
+    owner = 0
+    do s = 1, size(segment, 2)
+      m = count(segment(:, s) > 0)
+      k = face_at(mesh, faces, segment(:m, s))
+      if (k == 0) cycle
+      if (faces%count(k) > 1) cycle
+      owner(s) = faces%owner(k)
+      segment(:m, s) = mesh%face_of(faces%local(k), owner(s))
+    end do
+  end subroutine orient_segments
+
+end module model_faces

@@ -1,0 +1,81 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Checks of a mesh in space as a whole: how the faces of its elements meet.
+module scene_faces
+  use base_kinds, only: wp
+  use base_strings, only: to_text
+  use deck_data, only: deck_t
+  use deck_problems, only: add_warning, full
+  use model_data, only: model_t
+  use model_faces, only: faces_t, find_faces, find_hanging, face_at
+  implicit none
+  private
+  public :: check_faces, warn_of_tetrahedra
+
+contains
+
+  !> A face has two elements at most, and meets faces of its own shape.
+  subroutine check_faces(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(faces_t) :: faces
+    integer :: k, hanging(2)
+    call find_faces(model%mesh, model%mesh_nodes, faces)
+    do k = 1, faces%n
+      if (faces%count(k) > 2) call tell_shared(deck, model, faces, k)
+      if (full(deck%problems)) return
+    end do
+    call find_hanging(model%mesh, model%mesh_nodes, faces, hanging)
+    if (hanging(1) == 0) return
+    call deck%complain(model%mesh%record(hanging(1)), '', 'a triangle of element '// &
+        to_text(model%mesh%id(hanging(1)))//' lies on half a quadrilateral of element '// &
+        to_text(model%mesh%id(hanging(2)))//': they do not hold together', &
+        'the other element is at '//deck%place(model%mesh%record(hanging(2)))//'; put '// &
+        'pyramids between tetrahedra and hexahedra')
+  end subroutine check_faces
+
+  !> Names the elements of a face that more than two have.
+  subroutine tell_shared(deck, model, faces, k)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(faces_t), intent(in) :: faces
+    integer, intent(in) :: k
+    character(:), allocatable :: names
+    integer :: e, f, last
+    names = ''
+    last = 0
+    do e = faces%owner(k), model%mesh%n
+      do f = 1, model%mesh%faces_of(e)
+        if (face_at(model%mesh, faces, model%mesh%face_of(f, e)) /= k) cycle
+        if (len(names) > 0) names = names//', '
+        names = names//to_text(model%mesh%id(e))
+        last = e
+      end do
+    end do
+    call deck%complain(model%mesh%record(last), '', 'elements '//names// &
+        ' have one face together: a face has two elements at most', &
+        'do elements stand twice in the deck?')
+  end subroutine tell_shared
+
+  !> One warning for each part with tetrahedra of a material of a high Poisson ratio.
+  subroutine warn_of_tetrahedra(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    !> Beyond it they are several times too stiff in bending (doc/theory.md 1).
+    real(wp), parameter :: high = 0.4_wp
+    logical :: has_them(size(model%part))
+    real(wp) :: d(6, 6)
+    integer :: e, p
+    has_them = .false.
+    do e = 1, model%mesh%n
+      if (model%mesh%is_of_type(e, 'TET4')) has_them(model%mesh%part(e)) = .true.
+    end do
+    do p = 1, size(model%part)
+      if (.not. has_them(p)) cycle
+      d = model%material(model%part(p)%material)%item%moduli(model%part(p)%plane)
+      if (d(1, 2) > high*(d(1, 1) + d(1, 2))) call add_warning(deck%problems, 'poisson', &
+          'part '//to_text(model%part(p)%id)//' locks: its tetrahedra are of constant '// &
+          'strain and its PR is above 0.4; take hexahedra, ELFORM 2 or -1')
+    end do
+  end subroutine warn_of_tetrahedra
+
+end module scene_faces
