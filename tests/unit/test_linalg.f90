@@ -139,9 +139,9 @@ contains
     matrix%diagonal = reshape([(whole(i, i), i=1, d*graph%n)], [d, graph%n])
   end subroutine fill_matrix
 
-  !> Rows of at most 270 dofs (a clique of 90 nodes: panels of more than one tile), their sum of
-  !> moduli outside the diagonal below it: the inverse is below 1 and 1e-13 leaves a factor above
-  !> 400 of round-off. Some columns of the flexibility are compared, whole.
+  !> Rows of at most 270 dofs (a clique of 90 nodes: panels of more than one tile), the sum of
+  !> their moduli outside the diagonal below it: the inverse is below 1, and 1e-13 leaves a
+  !> factor above 400 of round-off. Some columns of the flexibility are compared, whole.
   subroutine test_solver(engine, order, last)
     character(*), intent(in) :: engine, order
     integer, intent(in) :: last(:)
