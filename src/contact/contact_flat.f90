@@ -27,7 +27,7 @@ contains
   subroutine flat_set_shape(this, wall)
     class(flat_t), intent(inout) :: this
     type(wall_t), intent(in) :: wall
-    this%ahead = wall%normal
+    this%ahead = wall%normal(:2)
     this%along = wall%along
     this%length = wall%length
     this%is_guided = wall%mass > zero

@@ -55,14 +55,14 @@ contains
     if (searched) call use_lists(model, contact, new_interface)
   end subroutine update_lists
 
-  !> Assertions on the state that contact starts from: (2, nodes) each, displacements finite.
+  !> Assertions on the state that contact starts from: (dim, nodes) each, displacements finite.
   subroutine check_motion(model, u, du, v, place)
     type(model_t), intent(in) :: model
     real(wp), intent(in) :: u(:, :), du(:, :), v(:, :)
     character(*), intent(in) :: place
-    call assert_shape(shape(u), [2, model%nodes], place, 'u')
-    call assert_shape(shape(du), [2, model%nodes], place, 'du')
-    call assert_shape(shape(v), [2, model%nodes], place, 'v')
+    call assert_shape(shape(u), [model%dim, model%nodes], place, 'u')
+    call assert_shape(shape(du), [model%dim, model%nodes], place, 'du')
+    call assert_shape(shape(v), [model%dim, model%nodes], place, 'v')
     call assert(all(ieee_is_finite(u)), place, 'displacements are finite')
   end subroutine check_motion
 
@@ -151,7 +151,7 @@ contains
     class(pairing_t), intent(inout) :: pairing
     real(wp), intent(in), contiguous :: u(:, :)
     logical, intent(out) :: is_due
-    real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b, moved
+    real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b, moved
     call side_motion(pairing%side(1)%node, pairing%reference_1, u, mean_a, spread_a)
     call side_motion(pairing%side(2)%node, pairing%reference_2, u, mean_b, spread_b)
     if (size(pairing%side(2)%node) == 0 .and. .not. pairing%is_wall) then
@@ -164,7 +164,7 @@ contains
     pairing%moved = moved
   end subroutine bound_motion
 
-  !> Lists anew, for the motion x of the step (2, nodes; largest [L] of a node), the pairings
+  !> Lists anew, for the motion x of the step (dim, nodes; largest [L] of a node), the pairings
   !> whose lists it has used up before its end: then the step must be solved `again`.
   subroutine relist_outrun(model, contact, u, x, largest, v, h, cycle, again, new_interface, &
       status)
@@ -202,7 +202,7 @@ contains
     class(pairing_t), intent(in) :: pairing
     real(wp), intent(in), contiguous :: u(:, :), x(:, :)
     real(wp), intent(out) :: moved
-    real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b
+    real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b
     call side_motion_at_end(pairing%side(1)%node, pairing%reference_1, u, x, mean_a, spread_a)
     call side_motion_at_end(pairing%side(2)%node, pairing%reference_2, u, x, mean_b, spread_b)
     if (size(pairing%side(2)%node) == 0 .and. .not. pairing%is_wall) then
@@ -215,18 +215,20 @@ contains
   pure subroutine side_motion_at_end(node, reference, u, x, mean, spread)
     integer, intent(in) :: node(:)
     real(wp), intent(in), contiguous :: reference(:, :), u(:, :), x(:, :)
-    real(wp), intent(out) :: mean(2), spread
-    real(wp) :: d(2)
-    integer :: k
+    real(wp), intent(out) :: mean(3), spread
+    real(wp) :: d(3)
+    integer :: k, m
+    m = size(u, 1)
     mean = zero
     spread = zero
+    d = zero
     do k = 1, size(node)
-      mean = mean + (u(:, node(k)) + x(:, node(k)) - reference(:, k))
+      mean(:m) = mean(:m) + (u(:, node(k)) + x(:, node(k)) - reference(:, k))
     end do
     mean = mean/max(1, size(node))
     do k = 1, size(node)
-      d = u(:, node(k)) + x(:, node(k)) - reference(:, k) - mean
-      spread = max(spread, d(1)**2 + d(2)**2)
+      d(:m) = u(:, node(k)) + x(:, node(k)) - reference(:, k) - mean(:m)
+      spread = max(spread, d(1)**2 + d(2)**2 + d(3)**2)
     end do
     spread = sqrt(spread)
   end subroutine side_motion_at_end
@@ -235,19 +237,21 @@ contains
   pure subroutine side_motion(node, reference, u, mean, spread)
     integer, intent(in) :: node(:)
     real(wp), intent(in), contiguous :: reference(:, :), u(:, :)
-    real(wp), intent(out) :: mean(2), spread
-    real(wp) :: d(2)
-    integer :: k
+    real(wp), intent(out) :: mean(3), spread
+    real(wp) :: d(3)
+    integer :: k, m
+    m = size(u, 1)
     mean = zero
     spread = zero
+    d = zero
     if (size(node) == 0) return    ! a wall does not move
     do k = 1, size(node)
-      mean = mean + (u(:, node(k)) - reference(:, k))
+      mean(:m) = mean(:m) + (u(:, node(k)) - reference(:, k))
     end do
     mean = mean/real(size(node), wp)
     do k = 1, size(node)
-      d = u(:, node(k)) - reference(:, k) - mean
-      spread = max(spread, d(1)**2 + d(2)**2)
+      d(:m) = u(:, node(k)) - reference(:, k) - mean(:m)
+      spread = max(spread, d(1)**2 + d(2)**2 + d(3)**2)
     end do
     spread = sqrt(spread)
   end subroutine side_motion
@@ -276,8 +280,9 @@ contains
     class(pairing_t), intent(in) :: pairing
     real(wp), intent(in), contiguous :: du(:, :), v(:, :)
     real(wp), intent(in) :: h
-    real(wp) :: zero_a(2, size(pairing%side(1)%node)), zero_b(2, size(pairing%side(2)%node))
-    real(wp) :: mean_a(2), mean_b(2), spread_a, spread_b, motion
+    real(wp) :: zero_a(size(v, 1), size(pairing%side(1)%node))
+    real(wp) :: zero_b(size(v, 1), size(pairing%side(2)%node))
+    real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b, motion
     zero_a = zero
     zero_b = zero
     call side_motion(pairing%side(1)%node, zero_a, v, mean_a, spread_a)

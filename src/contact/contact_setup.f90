@@ -156,8 +156,8 @@ contains
     call empty_side(pairing)
     select type (pairing)
     type is (pairing_wall_t)
-      pairing%point = wall%point
-      pairing%normal = wall%normal
+      pairing%point = wall%point(:model%dim)
+      pairing%normal = wall%normal(:model%dim)
     class is (obstacle_t)
       pairing%body = wall%node
       pairing%is_mid = any(model%controls%frame == [character(5) :: '', 'MID'])

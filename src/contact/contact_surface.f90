@@ -5,6 +5,7 @@
 module contact_surface
   use base_kinds, only: wp, zero, one, half
   use base_sort, only: sort_order
+  use contact_facets, only: facets_t, exterior_facets, corners_of
   use model_data, only: model_t, side_part_set, side_node_set, side_part, &
       side_segment_set, side_all_nodes, side_parts
   implicit none
@@ -30,6 +31,7 @@ module contact_surface
     integer, allocatable :: part(:)        !< (edges) rows of their parts
     integer, allocatable :: part_id(:)     !< (edges)
     integer, allocatable :: body(:)        !< (edges) bodies are numbered by their first node
+    type(facets_t), allocatable :: facets  !< only in space, in place of edges
     logical :: is_closed = .false.         !< every edge has both neighbours
     real(wp) :: mean_length = zero
     real(wp) :: shortest = huge(one)       !< edge [L]
@@ -51,6 +53,10 @@ contains
     integer, allocatable :: boundary(:, :), part(:), edge(:, :)
     logical, allocatable :: is_listed(:), taken(:)
     integer :: k
+    if (model%dim == 3) then
+      call make_space_surface(model, kind, row, surface)
+      return
+    end if
     allocate (part_in(size(model%part)), node_in(model%nodes))
     part_in = all(kind /= [side_part_set, side_part, side_parts])
     if (present(parts)) part_in(parts) = .true.
@@ -89,6 +95,39 @@ contains
     call follow_boundary(model, boundary, surface)
     call find_bodies(model, surface)
   end subroutine make_surface
+
+  !> The same in space, of nodes, for walls: those of a set or all, with the facets all of whose
+  !> corners are among them.
+  subroutine make_space_surface(model, kind, row, surface)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: kind, row
+    type(surface_t), intent(inout) :: surface
+    logical :: node_in(model%nodes)
+    integer :: k
+    allocate (surface%facets)
+    call exterior_facets(model, surface%facets)
+    node_in = .false.
+    if (kind == side_all_nodes) node_in(:model%mesh_nodes) = .true.
+    if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.
+    associate (f => surface%facets)
+      do k = 1, f%n
+        f%is_listed(k) = all(node_in(f%node(:corners_of(f, k), k)))
+      end do
+      surface%mean_length = sum(f%size, mask=f%is_listed)/max(1, count(f%is_listed))
+      surface%shortest = minval(f%size, mask=f%is_listed)
+    end associate
+    surface%node = pack([(k, k=1, model%nodes)], node_in)
+    allocate (surface%index(model%nodes))
+    surface%index = 0
+    surface%index(surface%node) = [(k, k=1, size(surface%node))]
+    allocate (surface%is_listed(0), surface%end_node(2, 0), surface%length(0), &
+        surface%normal(2, 0), surface%part(0), surface%part_id(0), surface%body(0))
+    allocate (surface%chain(2, size(surface%node)), surface%turn(size(surface%node)))
+    allocate (surface%chain_length(2, size(surface%node)))
+    surface%chain = 0
+    surface%turn = zero
+    surface%chain_length = zero
+  end subroutine make_space_surface
 
   !> Which edges are among the segments, in either direction.
   pure function in_segments(nodes, edge, segment) result(found)

@@ -4,6 +4,7 @@
 module contact_wall
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
+  use contact_facets, only: corners_of
   use contact_near, only: near_t, exchange_near
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap
   use contact_rows, only: rows_t, add_row, renew_gap, row_wall
@@ -12,8 +13,8 @@ module contact_wall
   private
 
   type, extends(pairing_t), public :: pairing_wall_t
-    real(wp) :: point(2) = zero         !< on it [L]
-    real(wp) :: normal(2) = zero        !< toward the bodies
+    real(wp), allocatable :: point(:)   !< on it [L]
+    real(wp), allocatable :: normal(:)  !< toward the bodies
     type(near_t) :: near
     real(wp), allocatable :: gap(:)     !< of the near nodes [L]
     logical :: is_new = .true.          !< the list is another one than in the last step
@@ -77,12 +78,21 @@ contains
     taken(this%side(1)%node(this%near%node(:this%near%n))) = .true.
   end subroutine wall_mark_interface
 
-  !> Nodes of the edges that face the wall.
+  !> Nodes of the edges or facets that face the wall.
   subroutine wall_mark_contact_nodes(this, model, taken)
     class(pairing_wall_t), intent(in) :: this
     type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
     integer :: e
+    if (allocated(this%side(1)%facets)) then
+      associate (f => this%side(1)%facets)
+        do e = 1, f%n
+          if (.not. f%is_listed(e)) cycle
+          if (dot_product(f%normal(:, e), this%normal) < -half) &
+              taken(f%node(:corners_of(f, e), e)) = .true.
+        end do
+      end associate
+    end if
     do e = 1, size(this%side(1)%length)
       if (.not. this%side(1)%is_listed(e)) cycle
       if (dot_product(this%side(1)%normal(:, e), this%normal) < -half) &

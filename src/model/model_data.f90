@@ -119,8 +119,8 @@ module model_data
     integer :: id = 0
     character(10) :: shape = 'WALL' !< name of its pairing; WALL is a plane that never moves
     integer :: node_set = 0         !< row; 0 = all nodes
-    real(wp) :: point(2) = 0.0_wp   !< on the plane, an end, the centre [L]
-    real(wp) :: normal(2) = 0.0_wp  !< toward the bodies
+    real(wp) :: point(3) = 0.0_wp   !< on the plane, an end, the centre [L]
+    real(wp) :: normal(3) = 0.0_wp  !< toward the bodies
     real(wp) :: mu = 0.0_wp
     real(wp) :: birth = 0.0_wp      !< [T]
     real(wp) :: death = huge(1.0_wp)

@@ -28,10 +28,6 @@ contains
       call records_of(deck, trim(wall_keyword(k)), 1, other)
       record = merged(record, other)
     end do
-    if (model%dim == 3 .and. size(record) > 0) then
-      call deck%complain(record(1), '', 'walls are not available in space in this version')
-      record = record(:0)
-    end if
     allocate (model%wall(size(record)))
     do k = 1, size(record)
       associate (wall => model%wall(k), r => record(k))
@@ -57,6 +53,11 @@ contains
     character(:), allocatable :: name
     integer :: second, third
     name = deck%table%keyword(deck%block(deck%record(record)%block)%keyword)%canonical
+    if (model%dim == 3 .and. name /= 'RIGIDWALL_PLANAR') then
+      call deck%complain(record, '', '*'//name//' is not available in space in this version', &
+          'a wall in space is a *RIGIDWALL_PLANAR')
+      return
+    end if
     second = deck%follow(record, 2)
     if (second == 0) return
     call read_friction(deck, second, wall)
@@ -81,7 +82,7 @@ contains
     integer, intent(in) :: record
     type(wall_t), intent(inout) :: wall
     real(wp), parameter :: no_sliding = 1.0e6_wp
-    wall%point = [deck%real(record, 'XT'), deck%real(record, 'YT')]
+    wall%point = [deck%real(record, 'XT'), deck%real(record, 'YT'), deck%real(record, 'ZT')]
     wall%mu = deck%real(record, 'FRIC')
     if (.not. wall%mu < 1.0_wp) wall%mu = no_sliding
   end subroutine read_friction
@@ -91,9 +92,10 @@ contains
     integer, intent(in) :: record
     type(wall_t), intent(inout) :: wall
     real(wp) :: length
-    if (abs(deck%real(record, 'ZH') - deck%real(record, 'ZT')) > zero) call deck%complain( &
-        record, 'ZH', 'expected the value of ZT: the model is plane')
-    wall%normal = [deck%real(record, 'XH'), deck%real(record, 'YH')] - wall%point
+    if (.not. deck%in_space .and. abs(deck%real(record, 'ZH') - wall%point(3)) > zero) &
+        call deck%complain(record, 'ZH', 'expected the value of ZT: the model is plane')
+    wall%normal = [deck%real(record, 'XH'), deck%real(record, 'YH'), &
+        deck%real(record, 'ZH')] - wall%point
     length = norm2(wall%normal)
     if (.not. length > zero) then
       call deck%complain(record, 'XH', 'expected a point H apart from T: the normal of the '// &
@@ -129,7 +131,7 @@ contains
     if (.not. wall%length > zero) return
     if (abs(deck%real(third, 'ZHEV') - deck%real(second, 'ZT')) > zero) call deck%complain( &
         third, 'ZHEV', 'expected the value of ZT: the length of the wall lies in the plane')
-    wall%along = [deck%real(third, 'XHEV'), deck%real(third, 'YHEV')] - wall%point
+    wall%along = [deck%real(third, 'XHEV'), deck%real(third, 'YHEV')] - wall%point(:2)
     length = norm2(wall%along)
     if (.not. length > zero) then
       call deck%complain(third, 'XHEV', 'expected a point apart from T: the wall goes from '// &
@@ -137,7 +139,7 @@ contains
       return
     end if
     wall%along = wall%along/length
-    if (abs(dot_product(wall%along, wall%normal)) > upright) then
+    if (abs(dot_product(wall%along, wall%normal(:2))) > upright) then
       call deck%complain(third, 'XHEV', 'expected a point of the wall: its line from T is '// &
           'at right angles to the normal TH')
       return
@@ -197,7 +199,7 @@ contains
       if (model%wall(k)%shape == 'WALL') cycle
       model%nodes = model%nodes + 1
       model%wall(k)%node = model%nodes
-      model%x(:, model%nodes) = model%wall(k)%point
+      model%x(:, model%nodes) = model%wall(k)%point(:model%dim)
       call move_wall(model, model%wall(k))
     end do
   end subroutine add_bodies
@@ -211,7 +213,7 @@ contains
     integer :: d
     if (wall%mass > zero) then
       model%fixed(:, wall%node) = .false.
-      model%v0(:, wall%node) = wall%speed*wall%normal
+      model%v0(:, wall%node) = wall%speed*wall%normal(:model%dim)
     end if
     if (wall%curve == 0) return
     speed = curve_slope(model%curve(wall%curve), zero)

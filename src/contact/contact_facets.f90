@@ -1,0 +1,78 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The boundary of bodies in space as facets: the faces that belong to one element only, seen
+!> from outside counter-clockwise.
+module contact_facets
+  use base_kinds, only: wp, zero, one, half
+  use model_data, only: model_t
+  use model_faces, only: faces_t, find_faces
+  implicit none
+  private
+
+  type, public :: facets_t
+    integer :: n = 0
+    integer, allocatable :: node(:, :)     !< (4, n); of a triangle the last is 0
+    integer, allocatable :: part(:)        !< (n) rows of parts
+    logical, allocatable :: is_listed(:)   !< (n) it belongs to the surface
+    real(wp), allocatable :: normal(:, :)  !< (3, n) outward, in the middle, reference geometry
+    real(wp), allocatable :: size(:)       !< (n) square root of the area [L]
+  end type facets_t
+
+  public :: exterior_facets, corners_of
+
+contains
+
+  !> All exterior faces of the model, none of them listed. (Faces of quadratic elements are not
+  !> among them: contact knows linear facets.)
+  subroutine exterior_facets(model, facets)
+    type(model_t), intent(in) :: model
+    type(facets_t), intent(out) :: facets
+    type(faces_t) :: faces
+    integer :: k, n
+    call find_faces(model%mesh, model%nodes, faces)
+    n = count(faces%count(:faces%n) == 1)
+    facets%n = n
+    allocate (facets%node(4, n), facets%part(n), facets%is_listed(n), facets%normal(3, n), &
+        facets%size(n))
+    facets%node = 0
+    facets%is_listed = .false.
+    n = 0
+    do k = 1, faces%n
+      if (faces%count(k) > 1) cycle
+      n = n + 1
+      associate (node => model%mesh%face_of(faces%local(k), faces%owner(k)))
+        facets%node(:size(node), n) = node
+      end associate
+      facets%part(n) = model%mesh%part(faces%owner(k))
+      call measure_facet(model%x, facets, n)
+    end do
+  end subroutine exterior_facets
+
+  pure subroutine measure_facet(x, facets, k)
+    real(wp), intent(in) :: x(:, :)
+    type(facets_t), intent(inout) :: facets
+    integer, intent(in) :: k
+    real(wp) :: a(3), b(3), area
+    associate (node => facets%node(:, k))
+      ! Half the cross product of the diagonals is the area vector of a bilinear facet.
+      if (node(4) > 0) then
+        a = half*(x(:, node(3)) - x(:, node(1)))
+        b = x(:, node(4)) - x(:, node(2))
+      else
+        a = half*(x(:, node(2)) - x(:, node(1)))
+        b = x(:, node(3)) - x(:, node(1))
+      end if
+    end associate
+    facets%normal(:, k) = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+    area = norm2(facets%normal(:, k))
+    facets%normal(:, k) = facets%normal(:, k)/max(area, tiny(one))
+    facets%size(k) = sqrt(area)
+  end subroutine measure_facet
+
+  !> Corners of facet k.
+  pure integer function corners_of(facets, k)
+    type(facets_t), intent(in) :: facets
+    integer, intent(in) :: k
+    corners_of = merge(4, 3, facets%node(4, k) > 0)
+  end function corners_of
+
+end module contact_facets
