@@ -102,16 +102,15 @@ contains
   pure subroutine list_edges(model, edge)
     type(model_t), intent(in) :: model
     integer, intent(out) :: edge(:, :)
-    integer :: e, k, n
+    integer :: e, k, n, c(3)
     n = 0
     do e = 1, model%mesh%n
-      associate (c => model%mesh%nodes_of(e))
-        if (size(c) /= 3) cycle
-        do k = 1, 3
-          n = n + 1
-          edge(:, n) = [c(k), c(1 + mod(k, 3)), c(1 + mod(k + 1, 3)), model%mesh%part(e)]
-        end do
-      end associate
+      if (model%mesh%count_of(e) /= 3) cycle
+      c = model%mesh%nodes_of(e)
+      do k = 1, 3
+        n = n + 1
+        edge(:, n) = [c(k), c(1 + mod(k, 3)), c(1 + mod(k + 1, 3)), model%mesh%part(e)]
+      end do
     end do
   end subroutine list_edges
 

@@ -58,19 +58,18 @@ contains
     type(model_t), intent(in) :: model
     integer, intent(in) :: p
     type(element_block_t), intent(inout) :: block
-    real(wp), allocatable :: ke(:, :)
+    real(wp), allocatable :: ke(:, :), moduli(:, :)
     integer :: i, m, d
     d = size(model%x, 1)
     m = d*block%nodes
     allocate (ke(m, m), block%stiffness(m - d, m - d, size(block%node, 2)))
     associate (part => model%part(p), &
         element => model%mesh%kind(model%mesh%type(block%first))%item)
-      associate (moduli => model%material(part%material)%item%moduli(part%plane))
-        do i = 1, size(block%node, 2)
-          call element%stiffness(model%x(:, block%node(:, i)), moduli, part%thickness, ke)
-          block%stiffness(:, :, i) = ke(d + 1:, d + 1:)
-        end do
-      end associate
+      moduli = model%material(part%material)%item%moduli(part%plane)
+      do i = 1, size(block%node, 2)
+        call element%stiffness(model%x(:, block%node(:, i)), moduli, part%thickness, ke)
+        block%stiffness(:, :, i) = ke(d + 1:, d + 1:)
+      end do
     end associate
   end subroutine block_stiffness
 

@@ -139,9 +139,9 @@ contains
     type(model_t), intent(in) :: model
     real(wp), intent(in) :: u(:, :)
     do e = 1, model%mesh%n
-      associate (node => model%mesh%nodes_of(e), &
-          element => model%mesh%kind(model%mesh%type(e))%item)
-        if (.not. element%smallest_jacobian(model%x(:, node) + u(:, node)) > zero) return
+      associate (element => model%mesh%kind(model%mesh%type(e))%item)
+        if (.not. element%smallest_jacobian(model%x(:, model%mesh%nodes_of(e)) &
+            + u(:, model%mesh%nodes_of(e))) > zero) return
       end associate
     end do
     e = 0

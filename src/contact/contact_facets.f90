@@ -27,7 +27,7 @@ contains
     type(model_t), intent(in) :: model
     type(facets_t), intent(out) :: facets
     type(faces_t) :: faces
-    integer :: k, n
+    integer :: k, m, n
     call find_faces(model%mesh, model%nodes, faces)
     n = count(faces%count(:faces%n) == 1)
     facets%n = n
@@ -39,9 +39,8 @@ contains
     do k = 1, faces%n
       if (faces%count(k) > 1) cycle
       n = n + 1
-      associate (node => model%mesh%face_of(faces%local(k), faces%owner(k)))
-        facets%node(:size(node), n) = node
-      end associate
+      m = model%mesh%size_of_face(faces%local(k), faces%owner(k))
+      facets%node(:m, n) = model%mesh%face_of(faces%local(k), faces%owner(k))
       facets%part(n) = model%mesh%part(faces%owner(k))
       call measure_facet(model%x, facets, n)
     end do

@@ -31,7 +31,7 @@ module contact_surface
     integer, allocatable :: part(:)        !< (edges) rows of their parts
     integer, allocatable :: part_id(:)     !< (edges)
     integer, allocatable :: body(:)        !< (edges) bodies are numbered by their first node
-    type(facets_t), allocatable :: facets  !< only in space, in place of edges
+    type(facets_t) :: facets               !< only in space, in place of edges
     logical :: is_closed = .false.         !< every edge has both neighbours
     real(wp) :: mean_length = zero
     real(wp) :: shortest = huge(one)       !< edge [L]
@@ -104,7 +104,6 @@ contains
     type(surface_t), intent(inout) :: surface
     logical :: node_in(model%nodes)
     integer :: k
-    allocate (surface%facets)
     call exterior_facets(model, surface%facets)
     node_in = .false.
     if (kind == side_all_nodes) node_in(:model%mesh_nodes) = .true.

@@ -84,15 +84,13 @@ contains
     type(model_t), intent(in) :: model
     logical, intent(inout) :: taken(:)
     integer :: e
-    if (allocated(this%side(1)%facets)) then
-      associate (f => this%side(1)%facets)
-        do e = 1, f%n
-          if (.not. f%is_listed(e)) cycle
-          if (dot_product(f%normal(:, e), this%normal) < -half) &
-              taken(f%node(:corners_of(f, e), e)) = .true.
-        end do
-      end associate
-    end if
+    associate (f => this%side(1)%facets)
+      do e = 1, f%n
+        if (.not. f%is_listed(e)) cycle
+        if (dot_product(f%normal(:, e), this%normal) < -half) &
+            taken(f%node(:corners_of(f, e), e)) = .true.
+      end do
+    end associate
     do e = 1, size(this%side(1)%length)
       if (.not. this%side(1)%is_listed(e)) cycle
       if (dot_product(this%side(1)%normal(:, e), this%normal) < -half) &

@@ -2,6 +2,7 @@
 !> Faces of elements in space: those that no second element has are the surface of the bodies.
 !> Faces are found again by their smallest node, under which they are chained.
 module model_faces
+  use element_base, only: most_face_nodes
   use model_mesh, only: mesh_t
   implicit none
   private
@@ -24,7 +25,7 @@ contains
     type(mesh_t), intent(in) :: mesh
     integer, intent(in) :: nodes
     type(faces_t), intent(out) :: faces
-    integer :: e, f, k, m
+    integer :: e, f, k, m, node(most_face_nodes)
     m = 0
     do e = 1, mesh%n
       m = m + mesh%faces_of(e)
@@ -34,20 +35,20 @@ contains
     faces%first = 0
     do e = 1, mesh%n
       do f = 1, mesh%faces_of(e)
-        associate (node => mesh%face_of(f, e))
-          k = face_at(mesh, faces, node)
-          if (k > 0) then
-            faces%count(k) = faces%count(k) + 1
-            cycle
-          end if
-          faces%n = faces%n + 1
-          k = faces%n
-          faces%owner(k) = e
-          faces%local(k) = f
-          faces%count(k) = 1
-          faces%next(k) = faces%first(minval(node))
-          faces%first(minval(node)) = k
-        end associate
+        m = mesh%size_of_face(f, e)
+        node(:m) = mesh%face_of(f, e)
+        k = face_at(mesh, faces, node(:m))
+        if (k > 0) then
+          faces%count(k) = faces%count(k) + 1
+          cycle
+        end if
+        faces%n = faces%n + 1
+        k = faces%n
+        faces%owner(k) = e
+        faces%local(k) = f
+        faces%count(k) = 1
+        faces%next(k) = faces%first(minval(node(:m)))
+        faces%first(minval(node(:m))) = k
       end do
     end do
   end subroutine find_faces
@@ -57,14 +58,14 @@ contains
     type(mesh_t), intent(in) :: mesh
     type(faces_t), intent(in) :: faces
     integer, intent(in) :: node(:)
-    integer :: k
+    integer :: other(most_face_nodes), k, m
+    m = size(node)
     face_at = faces%first(minval(node))
     do while (face_at > 0)
-      associate (other => mesh%face_of(faces%local(face_at), faces%owner(face_at)))
-        if (size(other) == size(node)) then
-          if (all([(any(other == node(k)), k=1, size(node))])) return
-        end if
-      end associate
+      if (mesh%size_of_face(faces%local(face_at), faces%owner(face_at)) == m) then
+        other(:m) = mesh%face_of(faces%local(face_at), faces%owner(face_at))
+        if (all([(any(other(:m) == node(k)), k=1, m)])) return
+      end if
       face_at = faces%next(face_at)
     end do
   end function face_at
@@ -77,37 +78,43 @@ contains
     type(faces_t), intent(in) :: faces
     integer, intent(out) :: element(2)
     integer, allocatable :: first(:), next(:, :)
-    integer :: k, m, q, i
+    integer :: k, m, q, i, node(4), other(4)
     element = 0
     if (.not. any(sizes(mesh, faces) == 3) .or. .not. any(sizes(mesh, faces) == 4)) return
     ! The quadrilaterals at each node: 4 q + m is corner m + 1 of face q.
     allocate (first(nodes), next(0:3, faces%n))
     first = 0
     do k = 1, faces%n
-      associate (node => mesh%face_of(faces%local(k), faces%owner(k)))
-        if (size(node) /= 4 .or. faces%count(k) > 1) cycle
-        do m = 0, 3
-          next(m, k) = first(node(m + 1))
-          first(node(m + 1)) = 4*k + m
-        end do
-      end associate
+      if (.not. is_exterior(mesh, faces, k, 4)) cycle
+      node = mesh%face_of(faces%local(k), faces%owner(k))
+      do m = 0, 3
+        next(m, k) = first(node(m + 1))
+        first(node(m + 1)) = 4*k + m
+      end do
     end do
     do k = 1, faces%n
-      associate (node => mesh%face_of(faces%local(k), faces%owner(k)))
-        if (size(node) /= 3 .or. faces%count(k) > 1) cycle
-        q = first(node(1))
-        do while (q > 0)
-          associate (other => mesh%face_of(faces%local(q/4), faces%owner(q/4)))
-            if (all([(any(other == node(i)), i=2, 3)])) then
-              element = [faces%owner(k), faces%owner(q/4)]
-              return
-            end if
-          end associate
-          q = next(mod(q, 4), q/4)
-        end do
-      end associate
+      if (.not. is_exterior(mesh, faces, k, 3)) cycle
+      node(:3) = mesh%face_of(faces%local(k), faces%owner(k))
+      q = first(node(1))
+      do while (q > 0)
+        other = mesh%face_of(faces%local(q/4), faces%owner(q/4))
+        if (all([(any(other == node(i)), i=2, 3)])) then
+          element = [faces%owner(k), faces%owner(q/4)]
+          return
+        end if
+        q = next(mod(q, 4), q/4)
+      end do
     end do
   end subroutine find_hanging
+
+  !> Does face k belong to one element, and has it so many nodes?
+  pure logical function is_exterior(mesh, faces, k, nodes)
+    type(mesh_t), intent(in) :: mesh
+    type(faces_t), intent(in) :: faces
+    integer, intent(in) :: k, nodes
+    is_exterior = faces%count(k) == 1 .and. &
+        mesh%size_of_face(faces%local(k), faces%owner(k)) == nodes
+  end function is_exterior
 
   !> Nodes of each face.
   pure function sizes(mesh, faces) result(n)

@@ -32,6 +32,7 @@ module model_mesh
     procedure :: nodes_of
     procedure :: faces_of
     procedure :: face_of
+    procedure :: size_of_face
     procedure :: is_of_type
   end type mesh_t
 
@@ -139,7 +140,7 @@ contains
   pure function face_of(this, f, e) result(node)
     class(mesh_t), intent(in) :: this
     integer, intent(in) :: f, e
-    integer :: node(this%kind(this%type(e))%item%face_size(f))
+    integer :: node(this%size_of_face(f, e))
     integer :: k
     associate (face => this%kind(this%type(e))%item%face)
       do k = 1, size(node)
@@ -147,6 +148,13 @@ contains
       end do
     end associate
   end function face_of
+
+  !> Nodes of face f of element e.
+  pure integer function size_of_face(this, f, e)
+    class(mesh_t), intent(in) :: this
+    integer, intent(in) :: f, e
+    size_of_face = this%kind(this%type(e))%item%face_size(f)
+  end function size_of_face
 
   !> Is element e of the type of a name?
   pure logical function is_of_type(this, e, name)

@@ -154,9 +154,8 @@ contains
     origin = model%x(:, model%mesh%node_of(1, findloc(model%mesh%part, p, dim=1)))
     do e = 1, model%mesh%n
       if (model%mesh%part(e) /= p) cycle
-      associate (c => model%mesh%nodes_of(e))
-        call moments_of_area(model%x(:, c) - spread(origin, 2, size(c)), m, first, second)
-      end associate
+      call moments_of_area(model%x(:, model%mesh%nodes_of(e)) &
+          - spread(origin, 2, model%mesh%count_of(e)), m, first, second)
       mass = mass + m
       sum_first = sum_first + first
       sum_second = sum_second + second
