@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The trilinear hexahedron with 2 x 2 x 2 Gauss points.
 module element_hex8
-  use base_kinds, only: wp, one
-  use element_base, only: element_t, gauss
+  use base_kinds, only: wp, zero, one
+  use element_base, only: element_t, jacobian_at, gauss
   implicit none
   private
 
@@ -11,7 +11,7 @@ module element_hex8
     procedure :: shape => hex8_shape
     procedure :: rule => hex8_rule
     procedure :: mass_rule => hex8_mass_rule
-    procedure :: sizes => hex8_sizes
+    procedure :: directions => hex8_directions
     procedure :: smallest_jacobian => hex8_smallest_jacobian
   end type hex8_t
 
@@ -28,7 +28,8 @@ contains
   !> Its data.
   pure function new_hex8() result(element)
     type(hex8_t) :: element
-    element = hex8_t(name='HEX8', dim=3, nodes=8, vtk=12, face=hex_face)
+    element = hex8_t(name='HEX8', dim=3, nodes=8, vtk=12, takes_dispersion=.true., &
+        face=hex_face)
   end function new_hex8
 
   pure subroutine hex8_shape(this, xi, n, dn)
@@ -80,32 +81,26 @@ contains
     end do
   end subroutine corner_points
 
-  !> Distance between the centres of opposite faces.
-  pure function hex8_sizes(this, x) result(h)
+  !> Between the centres of opposite faces.
+  pure function hex8_directions(this, x) result(across)
     class(hex8_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: h(size(x, 1)), across(3)
+    real(wp) :: across(size(x, 1), size(x, 1))
     integer :: d, i
+    across = zero
     do d = 1, 3
-      across = corner(d, 1)*(x(:, 1) - x(:, 1))
       do i = 2, 8
-        across = across + 0.25_wp*corner(d, i)*(x(:, i) - x(:, 1))
+        across(:, d) = across(:, d) + 0.25_wp*corner(d, i)*(x(:, i) - x(:, 1))
       end do
-      h(d) = sqrt(sum(across**2))
     end do
-  end function hex8_sizes
+  end function hex8_directions
 
   !> At the corners: where all are positive none inside was negative (doc/theory.md 1).
   pure function hex8_smallest_jacobian(this, x) result(j)
     class(hex8_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: j, n(8), dn(8, 3), det_j
-    integer :: k
-    j = huge(j)
-    do k = 1, 8
-      call this%gradients(x, corner(:, k), n, dn, det_j)
-      j = min(j, det_j)
-    end do
+    real(wp) :: j
+    j = jacobian_at(this, x, corner)
   end function hex8_smallest_jacobian
 
 end module element_hex8

@@ -2,8 +2,8 @@
 !> The pyramid: a hexahedron whose upper face is one node. Base 1-2-3-4, apex 5.
 module element_pyramid5
   use base_kinds, only: wp, zero
-  use element_base, only: element_t, gauss
-  use element_hex8, only: trilinear, corner_points
+  use element_base, only: element_t, jacobian_at, gauss
+  use element_hex8, only: corner, trilinear, corner_points
   implicit none
   private
 
@@ -12,6 +12,7 @@ module element_pyramid5
     procedure :: shape => pyramid5_shape
     procedure :: rule => pyramid5_rule
     procedure :: mass_rule => pyramid5_mass_rule
+    procedure :: smallest_jacobian => pyramid5_smallest_jacobian
   end type pyramid5_t
 
   public :: new_pyramid5
@@ -43,8 +44,8 @@ contains
     call corner_points([gauss, gauss, gauss], points, xi, w)
   end subroutine pyramid5_rule
 
-  !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with two
-  !> shape functions of degree 4.
+  !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with
+  !> two shape functions of degree 4.
   pure subroutine pyramid5_mass_rule(this, a, points, xi, w)
     class(pyramid5_t), intent(in) :: this
     real(wp), intent(in) :: a(:)
@@ -64,5 +65,13 @@ contains
       end do
     end do
   end subroutine pyramid5_mass_rule
+
+  !> At the points and the corners of the base; at a repeated corner it is zero in any shape.
+  pure function pyramid5_smallest_jacobian(this, x) result(j)
+    class(pyramid5_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: j
+    j = jacobian_at(this, x, reshape([gauss*corner, corner(:, 1:4)], [3, 12]))
+  end function pyramid5_smallest_jacobian
 
 end module element_pyramid5
