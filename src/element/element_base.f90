@@ -26,6 +26,7 @@ module element_base
   contains
     procedure(shape_i), deferred :: shape
     procedure(rule_i), deferred :: rule
+    procedure :: stiffness_rule => element_stiffness_rule
     procedure :: mass_rule => element_mass_rule
     procedure :: gradients => element_gradients
     procedure :: strains_at => element_strains_at
@@ -77,6 +78,16 @@ contains
     integer, intent(in) :: dim
     strains = 3*(dim - 1)
   end function strains
+
+  !> Quadrature of the stiffness of an element of coordinates x (dim, nodes): the rule, unless
+  !> the shape asks for another.
+  pure subroutine element_stiffness_rule(this, x, points, xi, w)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    call this%rule(points, xi, w)
+  end subroutine element_stiffness_rule
 
   !> Quadrature of the mass: that of the stiffness, whatever the points +-a(i) asked for in
   !> parametric direction i.
@@ -177,7 +188,7 @@ contains
     real(wp), intent(out) :: ke(:, :)
     real(wp) :: xi(3, most_points), w(most_points), b(size(d, 1), size(x)), det_j
     integer :: k, points
-    call this%rule(points, xi, w)
+    call this%stiffness_rule(x, points, xi, w)
     ke = zero
     do k = 1, points
       call this%strains_at(x, xi(:size(x, 1), k), b, det_j)

@@ -21,7 +21,7 @@ module element_hex8
   integer, parameter, public :: hex_face(4, 6) = reshape([1, 5, 8, 4, 2, 3, 7, 6, 1, 2, 6, 5, &
       4, 8, 7, 3, 1, 4, 3, 2, 5, 6, 7, 8], [4, 6])
 
-  public :: new_hex8, trilinear, corner_points
+  public :: new_hex8, trilinear, corner_points, cube_points
 
 contains
 
@@ -80,6 +80,25 @@ contains
       xi(1:3, k) = a*corner(:, k)
     end do
   end subroutine corner_points
+
+  !> Three Gauss points in each direction.
+  pure subroutine cube_points(points, xi, w)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    real(wp), parameter :: at(3) = [-sqrt(0.6_wp), zero, sqrt(0.6_wp)]
+    real(wp), parameter :: weight(3) = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp
+    integer :: i, j, k
+    points = 0
+    do k = 1, 3
+      do j = 1, 3
+        do i = 1, 3
+          points = points + 1
+          xi(1:3, points) = [at(i), at(j), at(k)]
+          w(points) = weight(i)*weight(j)*weight(k)
+        end do
+      end do
+    end do
+  end subroutine cube_points
 
   !> Between the centres of opposite faces.
   pure function hex8_directions(this, x) result(across)
