@@ -5,50 +5,71 @@ module assembly_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
-  use element_base, only: element_t, most_nodes, most_face_nodes
+  use element_base, only: element_t, most_nodes, most_strains
+  use element_dispersion, only: tuned_points, keep_row_sums
   use linalg_graph, only: graph_t
-  use model_data, only: model_t
+  use material_base, only: material_t
+  use model_data, only: model_t, controls_t
   use model_rigid, only: rigid_t
   implicit none
   private
   public :: element_mass, redistribution_targets, assemble_mass
 
+  !> Inner neighbours of contact nodes: count(i) of node i, in node(:) from first(i) on.
+  type :: inner_t
+    logical, allocatable :: is_contact(:)
+    integer, allocatable :: first(:), count(:), node(:)
+  end type inner_t
+
 contains
 
   !> Mass (nodes, nodes) [M] of element e by the type asked for. CONSISTENT: Gauss points.
-  !> LUMPED: its row sums. DISPERSION: points +-a with a^2 = (2/3)(1 - nu^2), nu = c dt/h per
-  !> direction, clipped to [0, 1] (Guddati & Yue 2004, tuned to the mid-point rule in time).
+  !> LUMPED: its row sums. DISPERSION: points by the Courant number, in space with the row sums
+  !> of Gauss points.
   pure subroutine element_mass(model, element, e, me)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element
     integer, intent(in) :: e
     real(wp), intent(out) :: me(:, :)
-    real(wp) :: x(element%dim, element%nodes), density, lumped(element%nodes)
-    real(wp), dimension(element%dim) :: nu, a
+    real(wp) :: x(element%dim, element%nodes), density, lumped(element%nodes), a(element%dim)
     integer :: k, n
     n = element%nodes
     me = zero
     associate (part => model%part(model%mesh%part(e)), controls => model%controls)
       x = model%x(:, model%mesh%nodes_of(e))
-      density = model%material(part%material)%item%density
-      if (controls%mass == 'LUMPED') then
-        lumped = element%lumped_mass(x, density, part%thickness)
-        do k = 1, n
-          me(k, k) = lumped(k)
-        end do
-        return
-      end if
-      a = one/sqrt(3.0_wp)
-      if (controls%mass == 'DISPERSION') then
-        nu = controls%courant
-        if (controls%courant < zero) nu = controls%dt* &
-            model%material(part%material)%item%wave_speed(part%plane)/element%sizes(x)
-        nu = min(one, max(zero, nu))
-        a = sqrt(2.0_wp/3.0_wp*(one - nu)*(one + nu))
-      end if
-      call element%mass(x, density, part%thickness, a, me)
+      ! Without WAVE S travel is not allocated, hence absent.
+      associate (material => model%material(part%material)%item)
+        density = material%density
+        a = one/sqrt(3.0_wp)
+        if (controls%mass == 'DISPERSION') a = tuned_points(element, x, &
+            controls%dt*travel_speed(controls, material, part%plane), controls%courant, &
+            controls%travel)
+      end associate
+      if (.not. controls%mass == 'LUMPED') &
+          call element%mass(x, density, part%thickness, a, me)
+      if (controls%mass == 'CONSISTENT' .or. controls%mass == 'DISPERSION' .and. &
+          element%dim == 2) return
+      lumped = element%lumped_mass(x, density, part%thickness)
+      if (controls%mass == 'DISPERSION') call keep_row_sums(lumped, me)
+      if (.not. controls%mass == 'LUMPED') return
+      do k = 1, n
+        me(k, k) = lumped(k)
+      end do
     end associate
   end subroutine element_mass
+
+  !> Speed of the waves that DISPERSION is tuned to: pressure, or with a direction of travel
+  !> shear waves [L/T].
+  pure real(wp) function travel_speed(controls, material, plane)
+    type(controls_t), intent(in) :: controls
+    class(material_t), intent(in) :: material
+    integer, intent(in) :: plane
+    real(wp) :: d(most_strains, most_strains)
+    travel_speed = material%wave_speed(plane)
+    if (.not. allocated(controls%travel)) return
+    d = material%moduli(plane)
+    travel_speed = sqrt(d(6, 6)/material%density)
+  end function travel_speed
 
   !> M* = T' M T, each element with the weight of its part: the rows and columns of a massless
   !> node go to its targets, in equal shares. mass(:) on the graph [M times the weight].
@@ -103,66 +124,116 @@ contains
 
   !> Where the mass of each node goes: itself, or for a massless contact node the inner
   !> neighbours, i.e. the nodes joined to it by an element edge that are no contact nodes
-  !> themselves. Rows first(n+1), target(:). Fails when a contact node has none.
+  !> themselves; where there is none, all nodes of its elements that are no contact nodes. Rows
+  !> first(n+1), target(:). Fails when a contact node has neither.
   subroutine redistribution_targets(model, massless, first, target, status)
     type(model_t), intent(in) :: model
     integer, intent(in) :: massless(:)
     integer, allocatable, intent(out) :: first(:), target(:)
     type(status_t), intent(inout) :: status
-    integer, allocatable :: inner(:, :), count(:)
-    logical, allocatable :: is_contact(:)
+    type(inner_t) :: inner
     integer :: i
-    allocate (is_contact(model%nodes), inner(32, model%nodes), count(model%nodes))
+    call start_inner(model, massless, inner)
+    if (size(massless) > 0) then
+      call find_inner(model, inner)
+      call find_others(model, inner)
+    end if
     allocate (first(model%nodes + 1))
-    is_contact = .false.
-    is_contact(massless) = .true.
-    count = 0
-    if (size(massless) > 0) call find_inner(model, is_contact, inner, count)
     first(1) = 1
     do i = 1, model%nodes
-      first(i + 1) = first(i) + merge(count(i), 1, is_contact(i))
-      if (is_contact(i) .and. count(i) == 0) call fail(status, status_deck, &
+      first(i + 1) = first(i) + merge(inner%count(i), 1, inner%is_contact(i))
+      if (inner%is_contact(i) .and. inner%count(i) == 0) call fail(status, status_deck, &
           'REDIST 1: contact node '//to_text(model%node_id(i))//' has no inner neighbour', &
           hint='use REDIST 0, or more than one element across the body')
     end do
     allocate (target(first(model%nodes + 1) - 1))
     do i = 1, model%nodes
-      target(first(i):first(i + 1) - 1) = inner(1:first(i + 1) - first(i), i)
-      if (.not. is_contact(i)) target(first(i)) = i
+      if (inner%is_contact(i)) then
+        target(first(i):first(i + 1) - 1) = &
+            inner%node(inner%first(i):inner%first(i) + inner%count(i) - 1)
+      else
+        target(first(i)) = i
+      end if
     end do
   end subroutine redistribution_targets
 
-  pure subroutine find_inner(model, is_contact, inner, count)
+  !> No neighbours yet; room for all other nodes of the elements of each contact node.
+  pure subroutine start_inner(model, massless, inner)
     type(model_t), intent(in) :: model
-    logical, intent(in) :: is_contact(:)
-    integer, intent(inout) :: inner(:, :), count(:)
-    integer :: node(most_face_nodes), e, f, k, m, pass
+    integer, intent(in) :: massless(:)
+    type(inner_t), intent(out) :: inner
+    integer :: e, i, k
+    allocate (inner%is_contact(model%nodes), inner%count(model%nodes))
+    allocate (inner%first(model%nodes + 1))
+    inner%is_contact = .false.
+    inner%is_contact(massless) = .true.
+    inner%count = 0
+    inner%first = 0
+    do e = 1, merge(model%mesh%n, 0, size(massless) > 0)
+      do k = 1, model%mesh%count_of(e)
+        associate (i => model%mesh%node_of(k, e))
+          if (inner%is_contact(i)) inner%first(i + 1) = inner%first(i + 1) &
+              + model%mesh%count_of(e) - 1
+        end associate
+      end do
+    end do
+    inner%first(1) = 1
+    do i = 1, model%nodes
+      inner%first(i + 1) = inner%first(i) + inner%first(i + 1)
+    end do
+    allocate (inner%node(inner%first(model%nodes + 1) - 1))
+  end subroutine start_inner
+
+  !> Neighbours by edges of elements, curved ones by the edges of their facets.
+  pure subroutine find_inner(model, inner)
+    type(model_t), intent(in) :: model
+    type(inner_t), intent(inout) :: inner
+    integer, allocatable :: node(:)
+    integer :: e, f, k, m, pass
     do e = 1, model%mesh%n
       do pass = 1, 2
-        do f = 1, model%mesh%faces_of(e)
-          m = model%mesh%size_of_face(f, e)
-          node(:m) = model%mesh%face_of(f, e)
+        do f = 1, model%mesh%facets_of(e)
+          node = model%mesh%facet_of(f, e)
+          m = size(node)
           do k = 1, m
             if (pass == 1 .and. (k < m .or. m > 2)) &
-                call add_inner(node(k), node(1 + mod(k, m)), is_contact, inner, count)
+                call add_inner(inner, node(k), node(1 + mod(k, m)))
             if (pass == 2 .and. (k > 1 .or. m > 2)) &
-                call add_inner(node(k), node(1 + mod(k + m - 2, m)), is_contact, inner, count)
+                call add_inner(inner, node(k), node(1 + mod(k + m - 2, m)))
           end do
         end do
       end do
     end do
   end subroutine find_inner
 
+  !> Where an edge of an element leads to contact nodes alone: its other nodes.
+  pure subroutine find_others(model, inner)
+    type(model_t), intent(in) :: model
+    type(inner_t), intent(inout) :: inner
+    logical :: has_none(model%nodes)
+    integer :: e, j, k
+    has_none = inner%is_contact .and. inner%count == 0
+    if (.not. any(has_none)) return
+    do e = 1, model%mesh%n
+      do k = 1, model%mesh%count_of(e)
+        if (.not. has_none(model%mesh%node_of(k, e))) cycle
+        do j = 1, model%mesh%count_of(e)
+          call add_inner(inner, model%mesh%node_of(k, e), model%mesh%node_of(j, e))
+        end do
+      end do
+    end do
+  end subroutine find_others
+
   !> Node j is joined to node i.
-  pure subroutine add_inner(i, j, is_contact, inner, count)
+  pure subroutine add_inner(inner, i, j)
+    type(inner_t), intent(inout) :: inner
     integer, intent(in) :: i, j
-    logical, intent(in) :: is_contact(:)
-    integer, intent(inout) :: inner(:, :), count(:)
-    if (.not. is_contact(i)) return
-    if (is_contact(j) .or. count(i) == size(inner, 1)) return
-    if (any(inner(1:count(i), i) == j)) return
-    count(i) = count(i) + 1
-    inner(count(i), i) = j
+    if (.not. inner%is_contact(i) .or. inner%is_contact(j)) return
+    associate (first => inner%first(i), n => inner%count(i))
+      if (any(inner%node(first:first + n - 1) == j)) return
+      inner%node(first + n) = j
+      n = n + 1
+    end associate
   end subroutine add_inner
 
 end module assembly_mass

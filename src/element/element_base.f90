@@ -15,23 +15,32 @@ module element_base
     integer :: nodes = 0
     integer :: vtk = 0                   !< its number in VTK
     integer, allocatable :: vtk_order(:) !< its nodes in the order of VTK, where that is another
+    !> Its mass takes points +-a(i) of parametric direction i, so DISPERSION is defined for it.
+    logical :: takes_dispersion = .false.
     !> (nodes of a face, faces) outward: in the plane edges with the element on their left, in
     !> space seen from outside counter-clockwise; 0 = this face has fewer nodes
     integer, allocatable :: face(:, :)
+    !> Of an element with curved faces: the triangles or quadrilaterals by which contact sees
+    !> them, (nodes of a facet, facets), as many for each face; else not allocated
+    integer, allocatable :: facet(:, :)
   contains
     procedure(shape_i), deferred :: shape
     procedure(rule_i), deferred :: rule
+    procedure :: stiffness_rule => element_stiffness_rule
     procedure :: mass_rule => element_mass_rule
     procedure :: gradients => element_gradients
     procedure :: strains_at => element_strains_at
     procedure :: stiffness => element_stiffness
     procedure :: mass => element_mass
-    procedure :: sizes => element_sizes
+    procedure :: directions => element_directions
+    procedure :: sizes
     procedure :: smallest_jacobian => element_smallest_jacobian
     procedure :: mean_strain_matrix => element_mean_strain_matrix
     procedure :: mean_strain => element_mean_strain
     procedure :: lumped_mass => element_lumped_mass
     procedure :: face_size
+    procedure :: facets
+    procedure :: facet_nodes
   end type element_t
 
   !> An element in a list of elements of several kinds.
@@ -57,7 +66,7 @@ module element_base
     end subroutine rule_i
   end interface
 
-  public :: strain_matrix, strains, gauss
+  public :: strain_matrix, strains, jacobian_at, gauss
 
   real(wp), parameter :: gauss = one/sqrt(3.0_wp)
 
@@ -69,6 +78,16 @@ contains
     integer, intent(in) :: dim
     strains = 3*(dim - 1)
   end function strains
+
+  !> Quadrature of the stiffness of an element of coordinates x (dim, nodes): the rule, unless
+  !> the shape asks for another.
+  pure subroutine element_stiffness_rule(this, x, points, xi, w)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    call this%rule(points, xi, w)
+  end subroutine element_stiffness_rule
 
   !> Quadrature of the mass: that of the stiffness, whatever the points +-a(i) asked for in
   !> parametric direction i.
@@ -169,7 +188,7 @@ contains
     real(wp), intent(out) :: ke(:, :)
     real(wp) :: xi(3, most_points), w(most_points), b(size(d, 1), size(x)), det_j
     integer :: k, points
-    call this%rule(points, xi, w)
+    call this%stiffness_rule(x, points, xi, w)
     ke = zero
     do k = 1, points
       call this%strains_at(x, xi(:size(x, 1), k), b, det_j)
@@ -223,40 +242,48 @@ contains
     end do
   end subroutine element_mass
 
-  !> Width h (dim) in each parametric direction [L]: of an element without directions of its own
-  !> its volume over its largest face, dim times.
-  pure function element_sizes(this, x) result(h)
+  !> Vectors (dim, dim) from the centre of a face to that of the opposite one, a column for each
+  !> parametric direction [L]; zero where the element has none.
+  pure function element_directions(this, x) result(across)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: h(size(x, 1)), largest, c(3)
-    integer :: f, k
-    largest = zero
-    do f = 1, size(this%face, 2)
-      c = zero
-      do k = 2, this%face_size(f) - 1
-        c = c + half*cross(x(:, this%face(k, f)) - x(:, this%face(1, f)), &
-            x(:, this%face(k + 1, f)) - x(:, this%face(1, f)))
-      end do
-      largest = max(largest, sqrt(sum(c**2)))
-    end do
-    h = size(x, 1)*sum(this%lumped_mass(x, one, one))/largest
-  end function element_sizes
+    real(wp) :: across(size(x, 1), size(x, 1))
+    across = zero
+  end function element_directions
+
+  !> Their lengths, the width h (dim) in each direction [L].
+  pure function sizes(this, x) result(h)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: h(size(x, 1)), across(size(x, 1), size(x, 1))
+    integer :: k
+    across = this%directions(x)
+    h = [(sqrt(sum(across(:, k)**2)), k=1, size(h))]
+  end function sizes
 
   !> Smallest determinant of the Jacobian at the points of its rule; not positive: wrong sense
   !> or degenerate.
   pure function element_smallest_jacobian(this, x) result(j)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: j, det_j, xi(3, most_points), w(most_points)
-    real(wp) :: n(size(x, 2)), dn(size(x, 2), size(x, 1))
-    integer :: k, points
+    real(wp) :: j, xi(3, most_points), w(most_points)
+    integer :: points
     call this%rule(points, xi, w)
+    j = jacobian_at(this, x, xi(:size(x, 1), :points))
+  end function element_smallest_jacobian
+
+  !> Its smallest value at the points xi (dim, points).
+  pure real(wp) function jacobian_at(this, x, xi) result(j)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :), xi(:, :)
+    real(wp) :: n(size(x, 2)), dn(size(x, 2), size(x, 1)), det_j
+    integer :: k
     j = huge(j)
-    do k = 1, points
-      call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
+    do k = 1, size(xi, 2)
+      call this%gradients(x, xi(:, k), n, dn, det_j)
       j = min(j, det_j)
     end do
-  end function element_smallest_jacobian
+  end function jacobian_at
 
   !> Mean over the points of B.
   pure subroutine element_mean_strain_matrix(this, x, b)
@@ -314,5 +341,24 @@ contains
     integer, intent(in) :: f
     face_size = count(this%face(:, f) > 0)
   end function face_size
+
+  !> Linear pieces of its surface: its faces, or those that stand for curved ones.
+  pure integer function facets(this)
+    class(element_t), intent(in) :: this
+    facets = size(this%face, 2)
+    if (allocated(this%facet)) facets = size(this%facet, 2)
+  end function facets
+
+  !> The nodes of one of them, outward.
+  pure function facet_nodes(this, f) result(node)
+    class(element_t), intent(in) :: this
+    integer, intent(in) :: f
+    integer, allocatable :: node(:)
+    if (allocated(this%facet)) then
+      node = this%facet(:, f)
+    else
+      node = this%face(:this%face_size(f), f)
+    end if
+  end function facet_nodes
 
 end module element_base

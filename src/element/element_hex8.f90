@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The trilinear hexahedron with 2 x 2 x 2 Gauss points.
 module element_hex8
-  use base_kinds, only: wp, one
-  use element_base, only: element_t, gauss
+  use base_kinds, only: wp, zero, one
+  use element_base, only: element_t, jacobian_at, gauss
   implicit none
   private
 
@@ -11,7 +11,7 @@ module element_hex8
     procedure :: shape => hex8_shape
     procedure :: rule => hex8_rule
     procedure :: mass_rule => hex8_mass_rule
-    procedure :: sizes => hex8_sizes
+    procedure :: directions => hex8_directions
     procedure :: smallest_jacobian => hex8_smallest_jacobian
   end type hex8_t
 
@@ -21,14 +21,15 @@ module element_hex8
   integer, parameter, public :: hex_face(4, 6) = reshape([1, 5, 8, 4, 2, 3, 7, 6, 1, 2, 6, 5, &
       4, 8, 7, 3, 1, 4, 3, 2, 5, 6, 7, 8], [4, 6])
 
-  public :: new_hex8, trilinear, corner_points
+  public :: new_hex8, trilinear, corner_points, cube_points
 
 contains
 
   !> Its data.
   pure function new_hex8() result(element)
     type(hex8_t) :: element
-    element = hex8_t(name='HEX8', dim=3, nodes=8, vtk=12, face=hex_face)
+    element = hex8_t(name='HEX8', dim=3, nodes=8, vtk=12, takes_dispersion=.true., &
+        face=hex_face)
   end function new_hex8
 
   pure subroutine hex8_shape(this, xi, n, dn)
@@ -80,32 +81,45 @@ contains
     end do
   end subroutine corner_points
 
-  !> Distance between the centres of opposite faces.
-  pure function hex8_sizes(this, x) result(h)
+  !> Three Gauss points in each direction.
+  pure subroutine cube_points(points, xi, w)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    real(wp), parameter :: at(3) = [-sqrt(0.6_wp), zero, sqrt(0.6_wp)]
+    real(wp), parameter :: weight(3) = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp
+    integer :: i, j, k
+    points = 0
+    do k = 1, 3
+      do j = 1, 3
+        do i = 1, 3
+          points = points + 1
+          xi(1:3, points) = [at(i), at(j), at(k)]
+          w(points) = weight(i)*weight(j)*weight(k)
+        end do
+      end do
+    end do
+  end subroutine cube_points
+
+  !> Between the centres of opposite faces.
+  pure function hex8_directions(this, x) result(across)
     class(hex8_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: h(size(x, 1)), across(3)
+    real(wp) :: across(size(x, 1), size(x, 1))
     integer :: d, i
+    across = zero
     do d = 1, 3
-      across = corner(d, 1)*(x(:, 1) - x(:, 1))
       do i = 2, 8
-        across = across + 0.25_wp*corner(d, i)*(x(:, i) - x(:, 1))
+        across(:, d) = across(:, d) + 0.25_wp*corner(d, i)*(x(:, i) - x(:, 1))
       end do
-      h(d) = sqrt(sum(across**2))
     end do
-  end function hex8_sizes
+  end function hex8_directions
 
   !> At the corners: where all are positive none inside was negative (doc/theory.md 1).
   pure function hex8_smallest_jacobian(this, x) result(j)
     class(hex8_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: j, n(8), dn(8, 3), det_j
-    integer :: k
-    j = huge(j)
-    do k = 1, 8
-      call this%gradients(x, corner(:, k), n, dn, det_j)
-      j = min(j, det_j)
-    end do
+    real(wp) :: j
+    j = jacobian_at(this, x, corner)
   end function hex8_smallest_jacobian
 
 end module element_hex8

@@ -19,7 +19,8 @@ contains
   !> Its data.
   pure function new_hex8_mean() result(element)
     type(hex8_mean_t) :: element
-    element = hex8_mean_t(name='HEX8MEAN', dim=3, nodes=8, vtk=12, face=hex_face)
+    element = hex8_mean_t(name='HEX8MEAN', dim=3, nodes=8, vtk=12, &
+        takes_dispersion=.true., face=hex_face)
   end function new_hex8_mean
 
   !> B with the dilatation of each point replaced by its mean over the volume (Hughes 1980):

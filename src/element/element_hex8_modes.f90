@@ -20,11 +20,12 @@ contains
   !> Its data.
   pure function new_hex8_modes() result(element)
     type(hex8_modes_t) :: element
-    element = hex8_modes_t(name='HEX8MODE', dim=3, nodes=8, vtk=12, face=hex_face)
+    element = hex8_modes_t(name='HEX8MODE', dim=3, nodes=8, vtk=12, &
+        takes_dispersion=.true., face=hex_face)
   end function new_hex8_modes
 
-  !> K - L' H^-1 L: the nine amplitudes of the modes 1 - xi_i^2 condensed, L and H the products of
-  !> their strains with those of the nodes and with each other.
+  !> K - L' H^-1 L: the nine amplitudes of the modes 1 - xi_i^2 condensed, L and H the products
+  !> of their strains with those of the nodes and with each other.
   pure subroutine hex8_modes_stiffness(this, x, d, thickness, ke)
     class(hex8_modes_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)

@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The pyramid: a hexahedron whose upper face is one node. Base 1-2-3-4, apex 5.
 module element_pyramid5
-  use base_kinds, only: wp, zero
-  use element_base, only: element_t, gauss
-  use element_hex8, only: trilinear, corner_points
+  use base_kinds, only: wp
+  use element_base, only: element_t, jacobian_at, gauss
+  use element_hex8, only: corner, trilinear, corner_points, cube_points
   implicit none
   private
 
@@ -12,6 +12,7 @@ module element_pyramid5
     procedure :: shape => pyramid5_shape
     procedure :: rule => pyramid5_rule
     procedure :: mass_rule => pyramid5_mass_rule
+    procedure :: smallest_jacobian => pyramid5_smallest_jacobian
   end type pyramid5_t
 
   public :: new_pyramid5
@@ -43,26 +44,22 @@ contains
     call corner_points([gauss, gauss, gauss], points, xi, w)
   end subroutine pyramid5_rule
 
-  !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with two
-  !> shape functions of degree 4.
+  !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with
+  !> two shape functions of degree 4.
   pure subroutine pyramid5_mass_rule(this, a, points, xi, w)
     class(pyramid5_t), intent(in) :: this
     real(wp), intent(in) :: a(:)
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
-    real(wp), parameter :: at(3) = [-sqrt(0.6_wp), zero, sqrt(0.6_wp)]
-    real(wp), parameter :: weight(3) = [5.0_wp, 8.0_wp, 5.0_wp]/9.0_wp
-    integer :: i, j, k
-    points = 0
-    do k = 1, 3
-      do j = 1, 3
-        do i = 1, 3
-          points = points + 1
-          xi(1:3, points) = [at(i), at(j), at(k)]
-          w(points) = weight(i)*weight(j)*weight(k)
-        end do
-      end do
-    end do
+    call cube_points(points, xi, w)
   end subroutine pyramid5_mass_rule
+
+  !> At the points and the corners of the base; at a repeated corner it is zero in any shape.
+  pure function pyramid5_smallest_jacobian(this, x) result(j)
+    class(pyramid5_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: j
+    j = jacobian_at(this, x, reshape([gauss*corner, corner(:, 1:4)], [3, 12]))
+  end function pyramid5_smallest_jacobian
 
 end module element_pyramid5

@@ -11,7 +11,7 @@ module element_quad4
     procedure :: shape => quad4_shape
     procedure :: rule => quad4_rule
     procedure :: mass_rule => quad4_mass_rule
-    procedure :: sizes => quad4_sizes
+    procedure :: directions => quad4_directions
     procedure :: smallest_jacobian => quad4_smallest_jacobian
   end type quad4_t
 
@@ -25,7 +25,7 @@ contains
   !> Its data.
   pure function new_quad4() result(element)
     type(quad4_t) :: element
-    element = quad4_t(name='QUAD4', dim=2, nodes=4, vtk=9, &
+    element = quad4_t(name='QUAD4', dim=2, nodes=4, vtk=9, takes_dispersion=.true., &
         face=reshape([1, 2, 2, 3, 3, 4, 4, 1], [2, 4]))
   end function new_quad4
 
@@ -59,16 +59,14 @@ contains
     end do
   end subroutine quad4_mass_rule
 
-  !> Distance between the midpoints of opposite edges.
-  pure function quad4_sizes(this, x) result(h)
+  !> Between the midpoints of opposite edges.
+  pure function quad4_directions(this, x) result(across)
     class(quad4_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: h(size(x, 1)), across(2)
-    across = half*((x(:, 2) - x(:, 1)) + (x(:, 3) - x(:, 4)))
-    h(1) = sqrt(sum(across**2))
-    across = half*((x(:, 4) - x(:, 1)) + (x(:, 3) - x(:, 2)))
-    h(2) = sqrt(sum(across**2))
-  end function quad4_sizes
+    real(wp) :: across(size(x, 1), size(x, 1))
+    across(:, 1) = half*((x(:, 2) - x(:, 1)) + (x(:, 3) - x(:, 4)))
+    across(:, 2) = half*((x(:, 4) - x(:, 1)) + (x(:, 3) - x(:, 2)))
+  end function quad4_directions
 
   !> The determinant is bilinear, so its smallest value is at a corner.
   pure function quad4_smallest_jacobian(this, x) result(j)

@@ -2,11 +2,13 @@
 !> The elements by name. To add one: its file, and here its `use` and its line in find_element.
 module element_registry
   use element_base, only: element_t
+  use element_hex27, only: new_hex27
   use element_hex8, only: new_hex8
   use element_hex8_mean, only: new_hex8_mean
   use element_hex8_modes, only: new_hex8_modes
   use element_pyramid5, only: new_pyramid5
   use element_quad4, only: new_quad4
+  use element_tet10, only: new_tet10
   use element_tet4, only: new_tet4
   use element_tri3, only: new_tri3
   use element_wedge6, only: new_wedge6
@@ -45,6 +47,8 @@ contains
     call offer(new_wedge6())
     call offer(new_pyramid5())
     call offer(new_tet4())
+    call offer(new_tet10())
+    call offer(new_hex27())
   contains
     subroutine offer(one)
       class(element_t), intent(in) :: one

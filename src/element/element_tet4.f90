@@ -13,15 +13,17 @@ module element_tet4
     procedure :: mass_rule => tet4_mass_rule
   end type tet4_t
 
-  public :: new_tet4
+  integer, parameter, public :: tet_face(3, 4) = &
+      reshape([1, 3, 2, 1, 2, 4, 2, 3, 4, 1, 4, 3], [3, 4])
+
+  public :: new_tet4, four_points
 
 contains
 
   !> Its data.
   pure function new_tet4() result(element)
     type(tet4_t) :: element
-    element = tet4_t(name='TET4', dim=3, nodes=4, vtk=10, &
-        face=reshape([1, 3, 2, 1, 2, 4, 2, 3, 4, 1, 4, 3], [3, 4]))
+    element = tet4_t(name='TET4', dim=3, nodes=4, vtk=10, face=tet_face)
   end function new_tet4
 
   !> Volume coordinates; xi are those of nodes 2 to 4.
@@ -47,10 +49,16 @@ contains
     w(1) = one/6.0_wp
   end subroutine tet4_rule
 
-  !> Four points, exact to degree 2 (Zienkiewicz & Taylor 2000, vol. 1, table 9.3).
   pure subroutine tet4_mass_rule(this, a, points, xi, w)
     class(tet4_t), intent(in) :: this
     real(wp), intent(in) :: a(:)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    call four_points(points, xi, w)
+  end subroutine tet4_mass_rule
+
+  !> Exact to degree 2 (Zienkiewicz & Taylor 2000, vol. 1, table 9.3).
+  pure subroutine four_points(points, xi, w)
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
     integer :: k
@@ -60,6 +68,6 @@ contains
     do k = 1, 3
       xi(k, k + 1) = (5.0_wp + 3.0_wp*sqrt(5.0_wp))/20.0_wp
     end do
-  end subroutine tet4_mass_rule
+  end subroutine four_points
 
 end module element_tet4

@@ -12,7 +12,6 @@ module element_tri3
     procedure :: rule => tri3_rule
     procedure :: stiffness => tri3_stiffness
     procedure :: mass => tri3_mass
-    procedure :: sizes => tri3_sizes
     procedure :: smallest_jacobian => tri3_smallest_jacobian
     procedure :: mean_strain_matrix => tri3_mean_strain_matrix
   end type tri3_t
@@ -98,19 +97,6 @@ contains
       me(i, i) = 2.0_wp*me(i, i)
     end do
   end subroutine tri3_mass
-
-  !> Height over the longest edge, twice: a triangle has no two directions.
-  pure function tri3_sizes(this, x) result(h)
-    class(tri3_t), intent(in) :: this
-    real(wp), intent(in) :: x(:, :)
-    real(wp) :: h(size(x, 1)), longest
-    integer :: i
-    longest = zero
-    do i = 1, 3
-      longest = max(longest, sqrt(sum((x(:, 1 + mod(i, 3)) - x(:, i))**2)))
-    end do
-    h = double_area(x)/longest
-  end function tri3_sizes
 
   !> The determinant is constant.
   pure function tri3_smallest_jacobian(this, x) result(j)

@@ -3,8 +3,8 @@
 !> 5-6, triangles 1-2-5 and 4-3-6.
 module element_wedge6
   use base_kinds, only: wp
-  use element_base, only: element_t, gauss
-  use element_hex8, only: trilinear, corner_points
+  use element_base, only: element_t, jacobian_at, gauss
+  use element_hex8, only: corner, trilinear, corner_points
   implicit none
   private
 
@@ -12,6 +12,7 @@ module element_wedge6
   contains
     procedure :: shape => wedge6_shape
     procedure :: rule => wedge6_rule
+    procedure :: smallest_jacobian => wedge6_smallest_jacobian
   end type wedge6_t
 
   public :: new_wedge6
@@ -43,5 +44,13 @@ contains
     real(wp), intent(out) :: xi(:, :), w(:)
     call corner_points([gauss, gauss, gauss], points, xi, w)
   end subroutine wedge6_rule
+
+  !> At the points and the corners of the base; at a repeated corner it is zero in any shape.
+  pure function wedge6_smallest_jacobian(this, x) result(j)
+    class(wedge6_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :)
+    real(wp) :: j
+    j = jacobian_at(this, x, reshape([gauss*corner, corner(:, 1:4)], [3, 12]))
+  end function wedge6_smallest_jacobian
 
 end module element_wedge6

@@ -192,6 +192,7 @@ module model_data
     character(10) :: mass = 'CONSISTENT'
     logical :: redistribute = .false.
     real(wp) :: courant = -1.0_wp       !< of DISPERSION; < 0 = from dt
+    real(wp), allocatable :: travel(:)  !< (3) direction of shear waves; only with WAVE S
     integer :: step_mode = step_fixed   !< step_... of deck_names
     real(wp) :: shortest_step = 0.0_wp  !< of HALVE [T]
     integer :: most_halvings = 10       !< of DT0

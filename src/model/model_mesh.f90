@@ -33,6 +33,8 @@ module model_mesh
     procedure :: faces_of
     procedure :: face_of
     procedure :: size_of_face
+    procedure :: facets_of
+    procedure :: facet_of
     procedure :: is_of_type
   end type mesh_t
 
@@ -155,6 +157,20 @@ contains
     integer, intent(in) :: f, e
     size_of_face = this%kind(this%type(e))%item%face_size(f)
   end function size_of_face
+  !> Linear pieces of the surface of element e.
+  pure integer function facets_of(this, e)
+    class(mesh_t), intent(in) :: this
+    integer, intent(in) :: e
+    facets_of = this%kind(this%type(e))%item%facets()
+  end function facets_of
+
+  !> The nodes of piece f of the surface of element e, outward.
+  pure function facet_of(this, f, e) result(node)
+    class(mesh_t), intent(in) :: this
+    integer, intent(in) :: f, e
+    integer, allocatable :: node(:)
+    node = this%node(this%first(e) - 1 + this%kind(this%type(e))%item%facet_nodes(f))
+  end function facet_of
 
   !> Is element e of the type of a name?
   pure logical function is_of_type(this, e, name)

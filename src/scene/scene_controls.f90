@@ -13,6 +13,7 @@ module scene_controls
   use model_data, only: model_t, controls_t, count_steps
   use scene_contact, only: contact_keyword
   use scene_explicit, only: read_timestep
+  use scene_mass, only: read_wave, refuse_wave
   use scene_steps, only: read_steps
   implicit none
   private
@@ -311,9 +312,11 @@ contains
     if (controls%mass /= 'DISPERSION') then
       if (deck%is_given(r, 'COURANT')) call deck%complain(r, 'COURANT', &
           'only the mass DISPERSION has a Courant number: leave it blank')
+      call refuse_wave(deck, r)
       return
     end if
     if (deck%is_given(r, 'COURANT')) controls%courant = deck%real(r, 'COURANT')
+    call read_wave(deck, r, controls)
     midpoint = is_midpoint(controls, traits)
     if (.not. midpoint) call add_warning(deck%problems, 'mass', 'the mass DISPERSION is '// &
         'tuned to theta = xi = 1/2 (gamma 1/2, beta 1/4): other values lose its accuracy, '// &

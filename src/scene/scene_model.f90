@@ -17,6 +17,7 @@ module scene_model
   use scene_motion, only: read_supports, read_motions, read_initial_velocities
   use scene_output, only: read_requests
   use scene_storage, only: read_storage
+  use scene_mass, only: check_mass
   use scene_parts, only: read_materials, read_parts
   use scene_rigid, only: read_rigid_parts
   use scene_sets, only: read_sets
@@ -46,6 +47,7 @@ contains
       call read_elements(deck, model, maps)
     end if
     if (deck%problems%count == 0) call check_mesh(deck, model)
+    if (deck%problems%count == 0) call check_mass(deck, model)
     if (deck%problems%count == 0) then
       call read_sets(deck, model, maps)
       call read_curves(deck, model, maps)

@@ -262,6 +262,26 @@ BASE_FAULTS = [
         "*BIPACT_MASS\n    LUMPED         0       1.0\n*BIPACT_TIME",
     ),
     (
+        "waves of a lumped mass",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\nLUMPED,,,S\n*BIPACT_TIME",
+    ),
+    (
+        "direction of pressure waves",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\nDISPERSION,,,P,1.0\n*BIPACT_TIME",
+    ),
+    (
+        "shear waves without direction",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\nDISPERSION,,,S\n*BIPACT_TIME",
+    ),
+    (
+        "shear waves in the plane",
+        "*BIPACT_TIME",
+        "*BIPACT_MASS\nDISPERSION,,,S,,,1.0\n*BIPACT_TIME",
+    ),
+    (
         "dispersion and cut step",
         "*BIPACT_TIME",
         "*BIPACT_MASS\nDISPERSION\n*BIPACT_TIME",
