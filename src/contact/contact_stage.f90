@@ -226,7 +226,7 @@ contains
     type(status_t), intent(inout) :: status
     integer :: k
     contact%solves_without_contact = 0
-    call solve_friction(contact, certificate, status)
+    call solve_to_gaps(contact, certificate, status)
     if (certificate%worst > 0) call add_place(status, &
         node_name(model, contact%rows%key(3, contact%row_of(certificate%worst))))
     call keep_certificate(certificate, contact%tally)
@@ -248,6 +248,28 @@ contains
       tally%wedged = tally%wedged + certificate%wedged
     end associate
   end subroutine find_reactions
+
+  !> The contact problem to its tolerance, and of positions so that no gap is deeper than PENTOL:
+  !> where it is, to a hundredth of the tolerance, at most twice.
+  subroutine solve_to_gaps(contact, certificate, status)
+    type(contact_t), intent(inout) :: contact
+    type(certificate_t), intent(out) :: certificate
+    type(status_t), intent(inout) :: status
+    real(wp) :: tolerance
+    integer :: attempt, sweeps
+    tolerance = contact%cone%tolerance
+    sweeps = 0
+    do attempt = 1, 3
+      call solve_friction(contact, certificate, status)
+      sweeps = sweeps + certificate%sweeps
+      if (failed(status) .or. contact%rule%level /= level_position) exit
+      if (.not. any(-contact%work%u(1, :contact%n) > &
+          contact%penetration_tolerance*contact%rows%length(contact%row_of(:contact%n)))) exit
+      contact%cone%tolerance = 1.0e-2_wp*contact%cone%tolerance
+    end do
+    contact%cone%tolerance = tolerance
+    certificate%sweeps = sweeps
+  end subroutine solve_to_gaps
 
   !> Corrects the reactions where W is known to fewer digits than the motion du (dim, nodes),
   !> refined with them: q = u(du) - W r, solved again from r. On exit force is that of the
