@@ -45,8 +45,8 @@ contains
     call add_field(table, 'TYPE', 'W10 =CONSISTENT '//choices(mass_names), 'mass matrix')
     call add_field(table, 'REDIST', 'I10 =0 >=0 <=1', '1 = massless contact nodes')
     call add_field(table, 'COURANT', 'R10 >=0 <=1', 'of DISPERSION; blank = from DT0')
-    call add_field(table, 'WAVE', 'W10 =P |P|S|', &
-        'of DISPERSION: pressure waves; shear waves (space)')
+    call add_field(table, 'WAVE', 'W10 |P|S|', &
+        'of DISPERSION: pressure waves; shear waves (space); blank = P')
     call add_field(table, 'DX', 'R10', 'direction of travel of shear waves, x; of S alone')
     call add_field(table, 'DY', 'R10', 'its y')
     call add_field(table, 'DZ', 'R10', 'its z')

@@ -106,6 +106,21 @@ contains
     real(wp), intent(in) :: x(:, :), xi(:)
     real(wp), intent(out) :: n(:), dn(:, :), det_j
     real(wp) :: local(size(x, 2), size(x, 1)), j(size(x, 1), size(x, 1))
+    call jacobian(this, x, xi, n, local, j, det_j)
+    if (size(x, 1) == 2) then
+      dn(:, 1) = (local(:, 1)*j(2, 2) - local(:, 2)*j(2, 1))/det_j
+      dn(:, 2) = (local(:, 2)*j(1, 1) - local(:, 1)*j(1, 2))/det_j
+    else
+      dn(:, :) = matmul(local, inverse(j, det_j))
+    end if
+  end subroutine element_gradients
+
+  !> Derivatives j (dim, dim) [L] of the place by the parametric coordinates, the determinant,
+  !> the shape functions n and their parametric derivatives local (nodes, dim).
+  pure subroutine jacobian(this, x, xi, n, local, j, det_j)
+    class(element_t), intent(in) :: this
+    real(wp), intent(in) :: x(:, :), xi(:)
+    real(wp), intent(out) :: n(:), local(:, :), j(:, :), det_j
     integer :: a, b, k
     call this%shape(xi, n, local)
     ! From the first node: translations of the element then leave no trace in the digits.
@@ -119,13 +134,10 @@ contains
     end do
     if (size(x, 1) == 2) then
       det_j = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-      dn(:, 1) = (local(:, 1)*j(2, 2) - local(:, 2)*j(2, 1))/det_j
-      dn(:, 2) = (local(:, 2)*j(1, 1) - local(:, 1)*j(1, 2))/det_j
     else
       det_j = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
-      dn(:, :) = matmul(local, inverse(j, det_j))
     end if
-  end subroutine element_gradients
+  end subroutine jacobian
 
   pure function cross(a, b) result(c)
     real(wp), intent(in) :: a(:), b(:)
@@ -276,11 +288,12 @@ contains
   pure real(wp) function jacobian_at(this, x, xi) result(j)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :), xi(:, :)
-    real(wp) :: n(size(x, 2)), dn(size(x, 2), size(x, 1)), det_j
+    real(wp) :: n(size(x, 2)), local(size(x, 2), size(x, 1)), to_x(size(x, 1), size(x, 1))
+    real(wp) :: det_j
     integer :: k
     j = huge(j)
     do k = 1, size(xi, 2)
-      call this%gradients(x, xi(:, k), n, dn, det_j)
+      call jacobian(this, x, xi(:, k), n, local, to_x, det_j)
       j = min(j, det_j)
     end do
   end function jacobian_at

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The triquadratic hexahedron with 3 x 3 x 3 Gauss points. Nodes: 1 to 8 the corners; 9 to 20
-!> on the edges 12, 23, 34, 41, 56, 67, 78, 85, 15, 26, 37, 48; 21 to 26 on the faces xi = -1, 1,
-!> eta = -1, 1, zeta = -1, 1; 27 the centre. VTK has the same order.
+!> on the edges 12, 23, 34, 41, 56, 67, 78, 85, 15, 26, 37, 48; 21 to 26 on the faces xi = -1,
+!> 1, eta = -1, 1, zeta = -1, 1; 27 the centre. VTK has the same order.
 module element_hex27
   use base_kinds, only: wp, zero, one, two, half
   use element_base, only: element_t, jacobian_at

@@ -74,7 +74,7 @@ contains
     call four_points(points, xi, w)
   end subroutine tet10_rule
 
-  !> A curved one has the rule of the mass: with constant strain its nodal forces are of degree 3.
+  !> A curved one has the rule of the mass: its forces of constant strain are of degree 3.
   pure subroutine tet10_stiffness_rule(this, x, points, xi, w)
     class(tet10_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)

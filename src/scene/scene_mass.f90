@@ -21,7 +21,7 @@ contains
     type(controls_t), intent(inout) :: controls
     real(wp) :: travel(3)
     integer :: k
-    if (deck%word(r, 'WAVE') == 'P') then
+    if (deck%word(r, 'WAVE') /= 'S') then
       call refuse_direction(deck, r)
       return
     end if

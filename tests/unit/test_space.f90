@@ -10,6 +10,7 @@ program test_space
   use element_hex8, only: corner, hex_face
   use element_registry, only: make_element, element_names
   use element_tet10, only: tet10_places
+  use linalg_dense, only: solve_general
   use material_base, only: material_t, in_space
   use material_registry, only: make_material
   implicit none
@@ -37,6 +38,12 @@ program test_space
   call test_stiff_modes('HEX8', 7)
   call test_stiff_modes('HEX8MEAN', 1)
   call test_stiff_modes('HEX8MODE', 4)
+  ! Bars of 10 x 1 x 1, 5 x 1 x 1, 10 x 2 x 2 elements, and the first with PR .499: by an
+  ! independent program, to three digits.
+  call test_bending('HEX8', [0.649_wp, 0.371_wp, 0.702_wp, 0.490_wp])
+  call test_bending('HEX8MEAN', [1.211_wp, 0.505_wp, 0.767_wp, 1.396_wp])
+  call test_bending('HEX8MODE', [0.998_wp, 0.996_wp, 1.000_wp, 0.990_wp])
+  call test_bending('HEX27', [1.000_wp, 0.999_wp])
   call test_end()
 
 contains
@@ -122,6 +129,8 @@ contains
     end do
     call check_true(smallest > zero, element%name//': the patch is a mesh')
     call check_true(count(inside .and. used) >= 1, element%name//': the patch has an inside')
+    print '(2a, es9.2)', element%name, ' patch', &
+        maxval(abs(f), mask=spread(inside, 1, 3))/largest
     ! Sums of some hundred terms.
     call check_close(maxval(abs(f), mask=spread(inside, 1, 3)), zero, 1.0e-13_wp, &
         element%name//': patch test', largest)
@@ -249,5 +258,92 @@ contains
     call all_eigenvalues(ke, value)
     call check_equal(count(value > 50.0_wp), expected, name//': stiff modes')
   end subroutine test_stiff_modes
+
+  !> A bar of 10 x 1 x 1 in pure bending: tip over that of the beam, L^2/(E h).
+  subroutine test_bending(name, expected)
+    character(*), intent(in) :: name
+    real(wp), intent(in) :: expected(:)
+    integer, parameter :: counts(3, 4) = reshape([10, 1, 1, 5, 1, 1, 10, 2, 2, 10, 1, 1], &
+        [3, 4])
+    real(wp) :: tip
+    integer :: i
+    call make_element(name, element)
+    do i = 1, size(expected)
+      call make_material('MAT_ELASTIC', 1, [one, one, merge(0.499_wp, 0.3_wp, i == 4)], &
+          material)
+      call bend(counts(:, i), tip)
+      print '(a, 3i4, f8.4)', element%name, counts(:, i), tip/100.0_wp
+      call check_close(tip/100.0_wp, expected(i), 1.0e-3_wp, name//': bending')
+    end do
+  end subroutine test_bending
+
+  !> Mean deflection of its end. Hexahedra on a grid of nodes (x fastest): the root has u_x = 0,
+  !> and u_y = 0, u_z = 0 on its middle lines, or y = 0, z = 0 where no node is in the middle.
+  subroutine bend(n, tip)
+    integer, intent(in) :: n(3)
+    real(wp), intent(out) :: tip
+    real(wp), allocatable :: k(:, :), f(:, :)
+    real(wp) :: place(3, element%nodes), x(3, element%nodes), ke(size(x), size(x)), size_of(3)
+    integer :: grid(3), node(element%nodes), dof(size(x)), m(3), a, b, c, e, p
+    integer, allocatable :: pivot(:)
+    logical :: is_solved
+    p = merge(2, 1, element%nodes == 27)
+    place = half*p*(corner_places() + one)
+    grid = p*n + 1
+    size_of = [10.0_wp, one, one]/(p*n)
+    a = 3*product(grid)
+    allocate (k(a, a), f(a, 1), pivot(a))
+    k = zero
+    f = zero
+    do e = 0, product(n) - 1
+      m = p*[mod(e, n(1)), mod(e/n(1), n(2)), e/(n(1)*n(2))]
+      do a = 1, element%nodes
+        x(:, a) = size_of*(m + nint(place(:, a)))
+        c = 1 + (m(1) + nint(place(1, a))) + grid(1)*((m(2) + nint(place(2, a))) &
+            + grid(2)*(m(3) + nint(place(3, a))))
+        node(a) = c
+        dof(3*a - 2:3*a) = [3*c - 2, 3*c - 1, 3*c]
+      end do
+      call element%stiffness(x, material%moduli(in_space), one, ke)
+      k(dof, dof) = k(dof, dof) + ke
+      if (m(1) == p*(n(1) - 1)) call add_end_load(x, node, f(:, 1))
+    end do
+    do c = 1, product(grid)
+      m = [mod(c - 1, grid(1)), mod((c - 1)/grid(1), grid(2)), (c - 1)/(grid(1)*grid(2))]
+      do b = 1, 3
+        if (m(1) > 0 .or. b > 1 .and. m(b) /= (grid(b) - 1)/2) cycle
+        k(3*c - 3 + b, :) = zero
+        k(:, 3*c - 3 + b) = zero
+        k(3*c - 3 + b, 3*c - 3 + b) = one
+      end do
+    end do
+    call solve_general(size(f), k, f, pivot, is_solved)
+    call check_true(is_solved, 'the bar is held')
+    tip = sum([(f(3*c, 1), c=grid(1), product(grid), grid(1))])/(grid(2)*grid(3))
+    tip = abs(tip)
+  end subroutine bend
+
+  !> Parametric places of the element's nodes.
+  function corner_places() result(place)
+    real(wp) :: place(3, element%nodes)
+    if (element%nodes == 8) place = corner
+    if (element%nodes == 27) place = hex27_places()
+  end function corner_places
+
+  !> Traction 2 z - 1 along x on the face xi = 1 of a box, by 2 x 2 points.
+  subroutine add_end_load(x, node, f)
+    real(wp), intent(in) :: x(:, :)
+    integer, intent(in) :: node(:)
+    real(wp), intent(inout) :: f(:)
+    real(wp) :: n(size(node)), dn(size(node), 3), area
+    integer :: i, j
+    area = 0.25_wp*(maxval(x(2, :)) - minval(x(2, :)))*(maxval(x(3, :)) - minval(x(3, :)))
+    do i = -1, 1, 2
+      do j = -1, 1, 2
+        call element%shape([one, i*gauss, j*gauss], n, dn)
+        f(3*node - 2) = f(3*node - 2) + area*n*(2.0_wp*dot_product(n, x(3, :)) - one)
+      end do
+    end do
+  end subroutine add_end_load
 
 end program test_space
