@@ -308,9 +308,9 @@ contains
     end do
   end function node_name
 
-  !> For each segment (two nodes) the one element that has it as an edge, and on which side: > 0
-  !> when the element runs from the first to the second node, < 0 when the other way; 0 when no
-  !> element or more than one has this edge.
+  !> For each segment (two nodes) the one element that has it as an edge, and on which side: >
+  !> 0 when the element runs from the first to the second node, < 0 when the other way; 0 when
+  !> no element or more than one has this edge.
   pure function segment_owner(model, segment) result(owner)
     type(model_t), intent(in) :: model
     integer, intent(in) :: segment(:, :)

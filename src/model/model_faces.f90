@@ -62,15 +62,15 @@ contains
     do while (face_at > 0)
       associate (other => mesh%face_of(faces%local(face_at), faces%owner(face_at)))
         if (size(other) == size(node)) then
-          if (all([(any(other == node(k)), k=1, size(node))])) return
+          if (all([(any(node == other(k)), k=1, size(other))])) return
         end if
       end associate
       face_at = faces%next(face_at)
     end do
   end function face_at
 
-  !> The first exterior triangle that lies on half an exterior quadrilateral, which hangs there:
-  !> the elements of both; 0 = none.
+  !> The first exterior triangle that lies on half an exterior quadrilateral, which hangs
+  !> there: the elements of both; 0 = none.
   subroutine find_hanging(mesh, nodes, faces, element)
     type(mesh_t), intent(in) :: mesh
     integer, intent(in) :: nodes
@@ -122,9 +122,9 @@ contains
     end do
   end function sizes
 
-  !> Segments (4, n), of triangles the last node 0, in the order of the faces that they are, seen
-  !> from outside counter-clockwise; owner: their elements, 0 where a segment is no exterior
-  !> face.
+  !> Segments (4, n), of triangles the last node 0, in the order of the faces that they are,
+  !> seen from outside counter-clockwise; owner: their elements, 0 where a segment is no
+  !> exterior face.
   subroutine orient_segments(mesh, nodes, segment, owner)
     type(mesh_t), intent(in) :: mesh
     integer, intent(in) :: nodes

@@ -8,8 +8,8 @@ module output_principal
 
 contains
 
-  !> Principal stresses (3, n), the largest first, of stresses (6, n) xx yy zz xy yz zx [F/L2]: in
-  !> the plane in closed form, in space by rotations.
+  !> Principal stresses (3, n), the largest first, of stresses (6, n) xx yy zz xy yz zx [F/L2]:
+  !> in the plane in closed form, in space by rotations.
   pure subroutine fill_principal(dim, stress, values)
     integer, intent(in) :: dim
     real(wp), intent(in) :: stress(:, :)

@@ -126,7 +126,8 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: stress(strains(model%dim)), x(size(model%x, 1), most_nodes), u(size(model%x, 1), most_nodes)
+    real(wp) :: stress(strains(model%dim))
+    real(wp), dimension(size(model%x, 1), most_nodes) :: x, u
     integer :: k, e, n, i
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)

@@ -88,9 +88,9 @@ contains
     rows = pack([(k, k=1, size(in_set))], in_set)
   end subroutine read_clauses
 
-  !> Nodes of the exterior edges or faces of a set, (2 or 4, segments). One belongs to a part when
-  !> its element does, and lies in a box when all its nodes do. edges are found when they are
-  !> not there yet.
+  !> Nodes of the exterior edges or faces of a set, (2 or 4, segments). One belongs to a part
+  !> when its element does, and lies in a box when all its nodes do. edges are found when they
+  !> are not there yet.
   subroutine read_segment_clauses(deck, model, maps, box, head, edges, node)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -214,7 +214,7 @@ contains
       e = edges%first(row(k))
       do while (e > 0)
         if (count(edges%node(:, e) > 0) == n .and. &
-            all([(any(edges%node(:, e) == row(m)), m=1, n)])) return
+            all([(any(row(:n) == edges%node(m, e)), m=1, n)])) return
         e = edges%next(e)
       end do
     end do
