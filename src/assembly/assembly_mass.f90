@@ -5,7 +5,7 @@ module assembly_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: to_text
-  use element_base, only: element_t, most_nodes
+  use element_base, only: element_t, most_nodes, most_face_nodes
   use linalg_graph, only: graph_t
   use model_data, only: model_t
   use model_rigid, only: rigid_t
@@ -136,19 +136,17 @@ contains
     type(model_t), intent(in) :: model
     logical, intent(in) :: is_contact(:)
     integer, intent(inout) :: inner(:, :), count(:)
-    integer :: e, f, k, m, pass
+    integer :: e, f, k, m, pass, node(most_face_nodes)
     do e = 1, model%mesh%n
       do pass = 1, 2
         do f = 1, model%mesh%faces_of(e)
-          associate (node => model%mesh%face_of(f, e))
-            m = size(node)
-            do k = 1, m
-              if (pass == 1 .and. (k < m .or. m > 2)) &
-                  call add_inner(node(k), node(1 + mod(k, m)), is_contact, inner, count)
-              if (pass == 2 .and. (k > 1 .or. m > 2)) &
-                  call add_inner(node(k), node(1 + mod(k + m - 2, m)), is_contact, inner, count)
-            end do
-          end associate
+          call model%mesh%get_face(f, e, node, m)
+          do k = 1, m
+            if (pass == 1 .and. (k < m .or. m > 2)) &
+                call add_inner(node(k), node(1 + mod(k, m)), is_contact, inner, count)
+            if (pass == 2 .and. (k > 1 .or. m > 2)) &
+                call add_inner(node(k), node(1 + mod(k + m - 2, m)), is_contact, inner, count)
+          end do
         end do
       end do
     end do

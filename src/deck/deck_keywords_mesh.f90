@@ -126,9 +126,9 @@ contains
         '1 full, 2 mean dilatation, -1 -2 18 -18 62 incompatible modes, 10 13 60 TET4, '// &
         '15 115 WEDGE6')
     call add_field(table, 'AET', 'I10 fixed', 'of other kinds of element')
-    call add_field(table, '-', 'R10 ignored')
-    call add_field(table, '-', 'R10 ignored')
-    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, 'NIP', 'R10 fixed', 'points are those of the form')
+    call add_field(table, '-', 'R10 fixed')
+    call add_field(table, '-', 'R10 fixed')
     call add_field(table, 'COHOFF', 'R10 fixed', 'of cohesive elements')
     call add_field(table, 'GASKEIT', 'R10 fixed', 'of gaskets')
   end subroutine add_solid_section

@@ -104,7 +104,8 @@ contains
       dn(:, 2) = (local(:, 2)*j(1, 1) - local(:, 1)*j(1, 2))/det_j
     else
       det_j = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
-      dn(:, :) = matmul(local, inverse(j, det_j))
+      dn(:, :) = zero    ! where the map is singular
+      if (abs(det_j) > zero) dn(:, :) = matmul(local, inverse(j, det_j))
     end if
   end subroutine element_gradients
 

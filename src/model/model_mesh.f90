@@ -32,6 +32,7 @@ module model_mesh
     procedure :: nodes_of
     procedure :: faces_of
     procedure :: face_of
+    procedure :: get_face
     procedure :: is_of_type
   end type mesh_t
 
@@ -147,6 +148,21 @@ contains
       end do
     end associate
   end function face_of
+
+  !> The same in the front of an array, and how many they are.
+  pure subroutine get_face(this, f, e, node, m)
+    class(mesh_t), intent(in) :: this
+    integer, intent(in) :: f, e
+    integer, intent(inout) :: node(:)
+    integer, intent(out) :: m
+    integer :: k
+    associate (face => this%kind(this%type(e))%item%face)
+      m = count(face(:, f) > 0)
+      do k = 1, m
+        node(k) = this%node(this%first(e) + face(k, f) - 1)
+      end do
+    end associate
+  end subroutine get_face
 
   !> Is element e of the type of a name?
   pure logical function is_of_type(this, e, name)

@@ -295,7 +295,7 @@ contains
     type(model_t), intent(in) :: model
     type(edges_t), intent(inout) :: edges
     type(faces_t) :: faces
-    integer :: k, n
+    integer :: k, n, m
     call find_faces(model%mesh, model%nodes, faces)
     n = count(faces%count(:faces%n) == 1)
     allocate (edges%node(4, n), edges%owner(n))
@@ -305,9 +305,7 @@ contains
       if (faces%count(k) > 1) cycle
       n = n + 1
       edges%owner(n) = faces%owner(k)
-      associate (node => model%mesh%face_of(faces%local(k), faces%owner(k)))
-        edges%node(:size(node), n) = node
-      end associate
+      call model%mesh%get_face(faces%local(k), faces%owner(k), edges%node(:, n), m)
     end do
   end subroutine find_exterior_faces
 

@@ -355,7 +355,7 @@ def space_statics():
 
 def space_warnings():
     """An element that turns by more than ROTWARN is told, by the arc tangent of t omega; a part of
-    tetrahedra with a high PR and ELFORM 1 have their word."""
+    tetrahedra with a high PR, or of full elements with one near 1/2, is warned of, ELFORM 1 noted."""
     box = Box((2, 2, 2), form="HEX8", shift=0.2, seed=8)
     lines = cards(box.x, box.elements) + part()
     lines += ["*INITIAL_VELOCITY_GENERATION", "0,2,2.0", "0.5,0.5,0.5,1.0,1.0,1.0"]
@@ -363,10 +363,14 @@ def space_warnings():
     said = [x for x in errors.splitlines() if "WARNING rotation" in x]
     degrees = np.degrees(np.arctan(2.0 * 0.044))    # the first step beyond 5 degrees
     check(len(said) == 1 and "turned by %.6f " % degrees in said[0], "%g: %s" % (degrees, errors))
-    box = Box((1, 1, 1), form="TET4")
-    lines = cards(box.x, box.elements) + part("TET4", poisson=0.45)
-    folder, code, errors = run_text("locks", deck(lines, 1.0e-3, 0.01))
-    check(code == 0 and "part 1 locks" in errors, errors)
+    for form, poisson, locks in (
+        ("TET4", 0.45, True), ("TET4", 0.35, False), ("HEX8", 0.495, True), ("HEX8", 0.45, False),
+        ("HEX8MEAN", 0.499, False), ("HEX8MODE", 0.499, False), ("WEDGE6", 0.495, True),
+    ):
+        box = Box((1, 1, 1), form=form)
+        lines = cards(box.x, box.elements) + part(form, poisson=poisson)
+        folder, code, errors = run_text("locks", deck(lines, 1.0e-3, 0.01))
+        check(code == 0 and ("part 1 locks" in errors) == locks, "%s: %s" % (form, errors))
     log = open(os.path.join(run("full", deck(cards(box.x, box.elements) + part("HEX8"), 1e-3,
                                              0.01)), "bipact.log")).read()
     check("2 x 2 x 2 points" in log, "the note of ELFORM 1")
