@@ -43,8 +43,8 @@ contains
     call corner_points([gauss, gauss, gauss], points, xi, w)
   end subroutine pyramid5_rule
 
-  !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with two
-  !> shape functions of degree 4.
+  !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with
+  !> two shape functions of degree 4.
   pure subroutine pyramid5_mass_rule(this, a, points, xi, w)
     class(pyramid5_t), intent(in) :: this
     real(wp), intent(in) :: a(:)
