@@ -781,6 +781,48 @@ def punch_force(load, share):
 # ---------------------------------------------------------------- command line
 
 
+class SpinningTube:
+    """A tube of regular polygons, one element through the wall, PR 0, that flies at a rigid wall
+    along its axis and spins about it: a plane pressure wave, and a torsional wave with Coulomb
+    friction at the foot (plane waves of rods; friction of a ring of constant pressure). The areas
+    are those of the polygons, so that the mesh has them exactly."""
+
+    def __init__(self, corners, inner, outer, length, modulus, density, velocity, mu):
+        half = np.pi / corners
+        self.area = corners * np.sin(2 * half) / 2 * (outer**2 - inner**2)
+        self.radius = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2)
+        self.speed = np.sqrt(modulus / density)
+        self.force = density * self.speed * velocity * self.area
+        self.torque = mu * self.force * self.radius
+        self.contact_time = 2 * length / self.speed
+
+    def spin_after(self, spin, inertia):
+        """Of a tube that slips all the time: inertia of its mass matrix about the axis."""
+        return spin - self.torque * self.contact_time / inertia
+
+
+def slide_down(slope, gravity, mu, velocity, time):
+    """Place and velocity (x down the slope, y across it) of a block thrown with `velocity` on a
+    plane inclined by `slope`: Coulomb's friction against the velocity, by Runge and Kutta's
+    fourth-order method, 4000 steps."""
+    drive, grip = gravity * np.sin(slope), mu * gravity * np.cos(slope)
+
+    def rate(s):
+        speed = np.hypot(s[2], s[3])
+        return s[2], s[3], drive - grip * s[2] / speed, -grip * s[3] / speed
+
+    steps, state = 4000, (0.0, 0.0) + tuple(velocity)
+    h = time / steps
+    for _ in range(steps):
+        slopes = [rate(state)]
+        for share in (0.5, 0.5, 1.0):
+            slopes += [rate([a + share * h * b for a, b in zip(state, slopes[-1])])]
+        state = tuple(
+            a + h / 6 * (p + 2 * q + 2 * r + s) for a, p, q, r, s in zip(state, *slopes)
+        )
+    return state
+
+
 def print_history(exact, rows):
     """Table of the exact history at equal times."""
     t = np.linspace(0.0, exact.tend, rows)

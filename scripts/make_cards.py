@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Write a deck that shows every keyword once: make_cards.py [-o FILE] [--bin bin/bipact].
+"""Write a deck that shows every keyword once: make_cards.py [-o FILE] [--bin bin/bipact]; with
+--space a second one, of the keywords of models in space.
 
 Columns, names and help come from `bipact --keywords`, so the deck cannot fall behind the table;
 the values, below, make a scene that runs: a block of quadrilaterals and triangles flies at a
 held base, a rigid body beside it, with loads, a moved edge and every table. make doc writes it to
-input/cards/every_keyword.k."""
+input/cards/every_keyword.k, the second to every_keyword_in_space.k there."""
 
 import argparse
 import os
@@ -209,6 +210,59 @@ SCENE = (
         ("DATABASE_BINARY_D3PLOT", [{"DT": 0.01, "PSETID": 1}]),
     ]
 )
+# A hexahedron and a wedge beside it, on two cards; they fly, pulled and pressed.
+CORNERS = [(0, 0), (1, 0), (1, 1), (0, 1)]
+IN_SPACE = (
+    [
+        ("TITLE", [{"TITLE": "the keywords of models in space"}]),
+        ("CONTROL_TERMINATION", [{"ENDTIM": 0.02}]),
+        ("CONTROL_IMPLICIT_GENERAL", [{"IMFLAG": 1, "DT0": 0.001}]),
+        ("CONTROL_IMPLICIT_DYNAMICS", [{"IMASS": 1}]),
+        (
+            "NODE",
+            [
+                {"NID": 4 * z + k + 1, "X": 1.0 * x, "Y": 1.0 * y, "Z": 1.0 * z}
+                for z in (0, 1)
+                for k, (x, y) in enumerate(CORNERS)
+            ]
+            + [{"NID": 9, "X": 2.0, "Y": 0.0, "Z": 0.5}, {"NID": 10, "X": 2.0, "Y": 1.0, "Z": 0.5}],
+        ),
+        ("ELEMENT_SOLID", [dict(zip(["EID", "PID"] + ["N%d" % k for k in range(1, 9)],
+                                    [1, 1] + list(range(1, 9))))]),
+        (
+            "ELEMENT_SOLID (ten nodes format)",
+            [
+                {"EID": 2, "PID": 1},
+                dict(zip(["N%d" % k for k in range(1, 9)], [6, 2, 3, 7, 9, 9, 10, 10])),
+            ],
+        ),
+        ("PART", [{"HEADING": "block"}, {"PID": 1, "SECID": 1, "MID": 1}]),
+        ("SECTION_SOLID", [{"SECID": 1, "ELFORM": -1}]),
+        ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
+        ("SET_SOLID_LIST", [{"SID": 1}, {"EID1": 1}]),
+        ("SET_SOLID", [{"SID": 2}, {"EID1": 1, "EID2": 2}]),
+        ("SET_SOLID_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 2}]),
+        ("SET_SOLID_GENERATE", [{"SID": 4}, {"B1BEG": 1, "B1END": 2}]),
+        ("SET_SOLID_GENERAL", [{"SID": 5}, {"OPTION": "ALL"}]),
+        ("SET_SEGMENT", [{"SID": 1}, {"N1": 5, "N2": 6, "N3": 7, "N4": 8}]),
+        ("SET_SEGMENT_GENERAL", [{"SID": 2}, {"OPTION": "SEG", "E1": 2, "E2": 9, "E3": 6}]),
+        ("DEFINE_CURVE", [{"LCID": 1}, {"A": 0.0, "O": 1.0}, {"A": 1.0, "O": 1.0}]),
+        (
+            "INITIAL_VELOCITY_GENERATION",
+            [{"ID": 1, "STYP": 2, "OMEGA": 0.1, "VZ": 1.0}, {"XC": 0.5, "NX": 1.0, "NY": 1.0}],
+        ),
+        ("BOUNDARY_SPC_NODE", [{"NID": 1, "DOFZ": 1}]),
+        ("LOAD_NODE_POINT", [{"NID": 2, "DOF": 3, "LCID": 1, "SF": 0.01}]),
+        ("LOAD_SEGMENT_SET", [{"SSID": 1, "LCID": 1, "SF": 0.1}]),
+        ("LOAD_SEGMENT", [{"LCID": 1, "SF": 0.1, "N1": 3, "N2": 10, "N3": 7}]),
+        ("LOAD_BODY_Z", [{"LCID": 1, "SF": 10.0}]),
+        ("DATABASE_HISTORY_SOLID", [{"ID1": 1}]),
+        ("DATABASE_HISTORY_SOLID_ID", [{"ID1": 2, "HEADING": "the wedge"}]),
+        ("DATABASE_HISTORY_SOLID_SET", [{"ID1": 2}]),
+    ]
+    + [("DATABASE_" + name, [{"DT": 0.002}]) for name in ("GLSTAT", "MATSUM", "ELOUT")]
+    + [("BIPACT_FIELD", [{"DT": 0.01}, {"NAME1": "U", "NAME2": "STRESS"}])]
+)
 PARAMETERS = [
     ("Rtend", "0.02"),
     ("Rdt", "0.0001"),
@@ -216,6 +270,15 @@ PARAMETERS = [
     ("Rmu", "0.2"),
     ("Cscheme", "THETA"),
     ("Cmode", "FIXED"),
+]
+
+
+HEAD_IN_SPACE = [
+    "$ The keywords of models in space, written by scripts/make_cards.py from the program's own "
+    "table;",
+    "$ every_keyword.k has the others. Two elements fly, pulled and pressed. Units: any consistent "
+    "set.",
+    "*KEYWORD",
 ]
 
 
@@ -272,13 +335,14 @@ def header(layout):
     return out
 
 
-def deck(program):
+def deck(program, in_space):
     """The whole text."""
     found = layouts(program)
-    missing = sorted(set(found) - {name for name, _ in SCENE} - OTHER_NAMES)
+    shown = {name for name, _ in SCENE + IN_SPACE}
+    missing = sorted(set(found) - shown - OTHER_NAMES)
     if missing:
         raise SystemExit("make_cards.py does not show: " + " ".join(missing))
-    out = [
+    out = HEAD_IN_SPACE[:] if in_space else [
         "$ Every keyword of bipact once, written by scripts/make_cards.py from the program's own "
         "table.",
         "$ A block of quadrilaterals and triangles falls on a held base. Units: any consistent "
@@ -287,9 +351,9 @@ def deck(program):
         "*PARAMETER",
         "$#   name1    value1     name2    value2     name3    value3     " "name4    value4",
     ]
-    for k in range(0, len(PARAMETERS), 4):
+    for k in range(0, 0 if in_space else len(PARAMETERS), 4):
         out.append("".join(n.ljust(10) + v.rjust(10) for n, v in PARAMETERS[k : k + 4]))
-    for name, cards in SCENE:
+    for name, cards in IN_SPACE if in_space else SCENE:
         text, repeat, layout = found[name]
         out += ["$", "$ " + text, "*" + name]
         for k, values in enumerate(cards):
@@ -310,8 +374,9 @@ def main():
     )
     parser.add_argument("-o", metavar="FILE", help="deck (default: to stdout)")
     parser.add_argument("--bin", default=startup.program(), help="program")
+    parser.add_argument("--space", action="store_true", help="the keywords of models in space")
     a = parser.parse_args()
-    text = deck(a.bin)
+    text = deck(a.bin, a.space)
     if a.o:
         with open(a.o, "w", encoding="ascii") as out:
             out.write(text)

@@ -328,7 +328,7 @@ contains
     end associate
   end subroutine add_stiffness
 
-  !> Largest diagonal of cK K over the largest of cM M.
+  !> Largest diagonal of cK K over the largest of cM M; 0 where no node of an element has mass.
   pure real(wp) function stiffness_ratio(system, c_m, c_k)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_k
@@ -339,7 +339,8 @@ contains
       heaviest = max(heaviest, maxval(system%lumped(reshape(system%block(b)%node, &
           [size(system%block(b)%node)]))))
     end do
-    stiffness_ratio = largest_stiffness(system%block)*c_k/(c_m*heaviest)
+    stiffness_ratio = zero
+    if (heaviest > zero) stiffness_ratio = largest_stiffness(system%block)*c_k/(c_m*heaviest)
   end function stiffness_ratio
 
   !> y = y + factor * M x.

@@ -11,8 +11,8 @@ module assembly_turns
 
 contains
 
-  !> Largest rotation of an element [radians], and the element: in the plane by its diagonals, in
-  !> space by the gradient at its centre.
+  !> Largest rotation of an element [radians], and the element: in the plane by its diagonals,
+  !> in space by the gradient at its centre.
   pure subroutine largest_rotation(model, system, u, angle, element)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -26,8 +26,8 @@ contains
     end if
   end subroutine largest_rotation
 
-  !> The first element whose area at X + U, in space its smallest Jacobian, is not positive; 0 =
-  !> none.
+  !> The first element whose area at X + U, in space its smallest Jacobian, is not positive; 0
+  !> = none.
   pure integer function first_inverted(model, system, u)
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
@@ -88,9 +88,9 @@ contains
     inverted_in_plane = 0
   end function inverted_in_plane
 
-  !> Of F = I + grad u at the centre the axial vector (F32 - F23, F13 - F31, F21 - F12)/2 is sine
-  !> of the rotation times its axis, (tr F - 1)/2 its cosine; a displacement t omega x X turns by
-  !> the arc tangent of t omega, a stretch not at all.
+  !> Of F = I + grad u at the centre the axial vector (F32 - F23, F13 - F31, F21 - F12)/2 is
+  !> sine of the rotation times its axis, (tr F - 1)/2 its cosine; a displacement t omega x X
+  !> turns by the arc tangent of t omega, a stretch not at all.
   pure subroutine rotation_in_space(model, u, angle, element)
     type(model_t), intent(in) :: model
     real(wp), intent(in) :: u(:, :)

@@ -10,8 +10,8 @@ module contact_closest
 contains
 
   !> The weights of the corners x (3, 3 or 4) of a facet [L] at its point nearest to p, and the
-  !> parameters there: of a quadrilateral in [-1, 1], of a triangle the weights of its second and
-  !> third corner.
+  !> parameters there: of a quadrilateral in [-1, 1], of a triangle the weights of its second
+  !> and third corner.
   pure subroutine closest_on_facet(x, p, at, weight)
     real(wp), intent(in) :: x(:, :), p(3)
     real(wp), intent(out) :: at(2), weight(:)
@@ -94,8 +94,8 @@ contains
     if (l > zero) share = min(one, max(zero, t/l))
   end function share
 
-  !> Minimum of |p - x|^2/2 in the square, from the best of nine points. The second derivative of
-  !> the place enters where the matrix stays positive; a parameter at its bound whose gradient
+  !> Minimum of |p - x|^2/2 in the square, from the best of nine points. The second derivative
+  !> of the place enters where the matrix stays positive; a parameter at its bound whose gradient
   !> pushes outward is held; the step is halved until the distance falls.
   pure subroutine closest_on_quad(x, p, at)
     real(wp), intent(in) :: x(:, :), p(3)

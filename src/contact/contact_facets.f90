@@ -39,8 +39,7 @@ contains
     do k = 1, faces%n
       if (faces%count(k) > 1) cycle
       n = n + 1
-      m = model%mesh%size_of_face(faces%local(k), faces%owner(k))
-      facets%node(:m, n) = model%mesh%face_of(faces%local(k), faces%owner(k))
+      call model%mesh%get_face(faces%local(k), faces%owner(k), facets%node(:, n), m)
       facets%part(n) = model%mesh%part(faces%owner(k))
       call measure_facet(model%x, facets, n)
     end do

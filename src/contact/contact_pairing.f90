@@ -96,6 +96,8 @@ module contact_pairing
     !> Search: the displacements when it was last done, and the smallest distance of what is
     !> not on the list. Nothing else can touch while the bodies have moved less than that.
     real(wp), allocatable :: reference_1(:, :), reference_2(:, :)
+    !> (dim) of a plane that stands still in space: only motion along it changes distances
+    real(wp), allocatable :: one_way(:)
     real(wp) :: safe_distance = -1.0_wp    !< [L]; < 0: never searched
     real(wp) :: moved = zero               !< bound of the relative motion since the search [L]
     real(wp) :: remaining_margin = zero    !< what nodes may move before it is evaluated [L]

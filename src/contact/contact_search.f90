@@ -152,6 +152,13 @@ contains
     real(wp), intent(in), contiguous :: u(:, :)
     logical, intent(out) :: is_due
     real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b, moved
+    if (allocated(pairing%one_way)) then
+      moved = motion_along(pairing, u, pairing%reference_1, -one)
+      pairing%remaining_margin = pairing%safe_distance - moved
+      is_due = moved + 2.0_wp*max(zero, moved - pairing%moved) >= pairing%safe_distance
+      pairing%moved = moved
+      return
+    end if
     call side_motion(pairing%side(1)%node, pairing%reference_1, u, mean_a, spread_a)
     call side_motion(pairing%side(2)%node, pairing%reference_2, u, mean_b, spread_b)
     if (size(pairing%side(2)%node) == 0 .and. .not. pairing%is_wall) then
@@ -203,6 +210,11 @@ contains
     real(wp), intent(in), contiguous :: u(:, :), x(:, :)
     real(wp), intent(out) :: moved
     real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b
+    if (allocated(pairing%one_way)) then
+      moved = motion_along(pairing, u, pairing%reference_1, -one) &
+          + motion_along(pairing, x)
+      return
+    end if
     call side_motion_at_end(pairing%side(1)%node, pairing%reference_1, u, x, mean_a, spread_a)
     call side_motion_at_end(pairing%side(2)%node, pairing%reference_2, u, x, mean_b, spread_b)
     if (size(pairing%side(2)%node) == 0 .and. .not. pairing%is_wall) then
@@ -211,6 +223,22 @@ contains
     end if
     moved = sqrt(sum((mean_a - mean_b)**2)) + spread_a + spread_b
   end subroutine motion_at_end
+
+  !> Largest motion of a node of side 1 along the one direction that counts, of u, or of u +
+  !> factor * other (dim, nodes of the side).
+  pure real(wp) function motion_along(pairing, u, other, factor) result(largest)
+    class(pairing_t), intent(in) :: pairing
+    real(wp), intent(in), contiguous :: u(:, :)
+    real(wp), intent(in), optional :: other(:, :), factor
+    real(wp) :: d
+    integer :: k
+    largest = zero
+    do k = 1, size(pairing%side(1)%node)
+      d = dot_product(pairing%one_way, u(:, pairing%side(1)%node(k)))
+      if (present(other)) d = d + factor*dot_product(pairing%one_way, other(:, k))
+      largest = max(largest, abs(d))
+    end do
+  end function motion_along
 
   pure subroutine side_motion_at_end(node, reference, u, x, mean, spread)
     integer, intent(in) :: node(:)
@@ -283,6 +311,11 @@ contains
     real(wp) :: zero_a(size(v, 1), size(pairing%side(1)%node))
     real(wp) :: zero_b(size(v, 1), size(pairing%side(2)%node))
     real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b, motion
+    if (allocated(pairing%one_way)) then
+      listing_distance = max(pairing%side(1)%mean_length, &
+          4.0_wp*h*motion_along(pairing, v), 4.0_wp*motion_along(pairing, du))
+      return
+    end if
     zero_a = zero
     zero_b = zero
     call side_motion(pairing%side(1)%node, zero_a, v, mean_a, spread_a)

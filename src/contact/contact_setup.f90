@@ -158,6 +158,7 @@ contains
     type is (pairing_wall_t)
       pairing%point = wall%point(:model%dim)
       pairing%normal = wall%normal(:model%dim)
+      if (model%dim == 3) pairing%one_way = pairing%normal
     class is (obstacle_t)
       pairing%body = wall%node
       pairing%is_mid = any(model%controls%frame == [character(5) :: '', 'MID'])

@@ -249,8 +249,8 @@ contains
     end associate
   end subroutine find_reactions
 
-  !> The contact problem to its tolerance, and of positions so that no gap is deeper than PENTOL:
-  !> where it is, to a hundredth of the tolerance, at most twice.
+  !> The contact problem to its tolerance, and of positions so that no gap is deeper than
+  !> PENTOL: where it is, to a hundredth of the tolerance, at most twice.
   subroutine solve_to_gaps(contact, certificate, status)
     type(contact_t), intent(inout) :: contact
     type(certificate_t), intent(out) :: certificate

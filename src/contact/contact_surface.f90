@@ -163,14 +163,14 @@ contains
     integer, allocatable, intent(out) :: edge(:, :), part(:)
     integer, allocatable :: all_edges(:, :), all_parts(:), order(:)
     logical, allocatable :: single(:)
-    integer :: e, f, n, i, j, first
+    integer :: e, f, m, n, i, j, first
     n = sum([(model%mesh%faces_of(e), e=1, model%mesh%n)])
     allocate (all_edges(2, n), all_parts(n))
     n = 0
     do e = 1, model%mesh%n
       do f = 1, model%mesh%faces_of(e)
         n = n + 1
-        all_edges(:, n) = model%mesh%face_of(f, e)
+        call model%mesh%get_face(f, e, all_edges(:, n), m)
         all_parts(n) = model%mesh%part(e)
       end do
     end do

@@ -3,8 +3,8 @@
 module deck_help
   use base_strings, only: to_text
   use deck_table, only: table_t, keyword_t, field_t, keyword_used, keyword_skipped, &
-      keyword_refused, keyword_frame, field_honoured, field_tuning, field_fixed, field_ignored, &
-      field_in_space
+      keyword_refused, keyword_frame, field_honoured, field_tuning, field_fixed, &
+      field_ignored, field_in_space
   implicit none
   private
   public :: write_usage, write_keywords, write_keyword

@@ -80,8 +80,8 @@ contains
     call add_field(table, 'ZC', 'R10 [L]', 'centre of rotation')
     call add_field(table, 'NX', 'R10 space', 'direction of the axis; plane: z')
     call add_field(table, 'NY', 'R10 space', 'direction of the axis; plane: z')
-    call add_field(table, 'NZ', 'R10 =1.0 0=d', &
-        'direction of the axis, 0 = 1 where NX, NY are 0; plane: 1 or -1')
+    call add_field(table, 'NZ', 'R10', &
+        'direction of the axis, 0 = 1 where NX and NY are 0; plane: 1 or -1')
     call add_field(table, 'PHASE', 'I10 fixed')
     call add_field(table, 'IRIGID', 'I10 fixed')
   end subroutine add_generation

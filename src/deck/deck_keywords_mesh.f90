@@ -44,7 +44,8 @@ contains
     call add_field(table, 'NID', 'I8 req >0', 'node number')
     call add_field(table, 'X', 'R16 =0.0 [L]', 'coordinate')
     call add_field(table, 'Y', 'R16 =0.0 [L]', 'coordinate')
-    call add_field(table, 'Z', 'R16 =0.0 [L]', 'coordinate; the same for all nodes of a plane model')
+    call add_field(table, 'Z', 'R16 =0.0 [L]', &
+        'coordinate; the same for all nodes of a plane model')
     call add_field(table, 'TC', 'I8 =0 >=0 <=7', &
         'held: 1 x, 2 y, 3 z, 4 x y, 5 y z, 6 z x, 7 x y z')
     call add_field(table, 'RC', 'I8 note >=0 <=7', 'nodes do not rotate')
@@ -74,13 +75,13 @@ contains
     call add_field(table, 'LOCAL', 'I8 ignored')
   end subroutine add_nodes_and_elements
 
-  !> Elements in space: with their nodes on one card, or on a second one. The name of the second
-  !> form is also what programs write; a deck's name ends at the first blank.
+  !> Elements in space: with their nodes on one card, or on a second one. The name of the
+  !> second form is also what programs write; a deck's name ends at the first blank.
   subroutine add_solids(table)
     type(table_t), intent(inout) :: table
     integer :: row
-    call add_keyword(table, 'ELEMENT_SOLID', 'elements in space; a tetrahedron is 1 2 3 4 4 4'// &
-        ' 4 4, a pyramid 1 2 3 4 5 5 5 5, a wedge 1 2 3 4 5 5 6 6', repeat_from=1)
+    call add_keyword(table, 'ELEMENT_SOLID', &
+        'elements in space: hexahedra, wedges, pyramids, tetrahedra', repeat_from=1)
     call add_card(table)
     call add_field(table, 'EID', 'I8 req >0', 'element number')
     call add_field(table, 'PID', 'I8 req >0', 'part')
@@ -101,13 +102,17 @@ contains
 
   subroutine add_corners(table)
     type(table_t), intent(inout) :: table
+    character(48), parameter :: repeated(5:8) = [character(48) :: &
+        'node above N1', 'node above N2; wedge: 1 2 3 4 5 5 6 6', &
+        'node above N3; pyramid: 1 2 3 4 5 5 5 5', &
+        'node above N4; tetrahedron: 1 2 3 4 4 4 4 4']
     integer :: k
     do k = 1, 4
       call add_field(table, 'N'//achar(48 + k), 'I8 req >0', &
           'node; N1 to N4 counter-clockwise seen from N5')
     end do
     do k = 5, 8
-      call add_field(table, 'N'//achar(48 + k), 'I8 =0 >=0', 'node, above N'//achar(44 + k))
+      call add_field(table, 'N'//achar(48 + k), 'I8 =0 >=0', trim(repeated(k)))
     end do
   end subroutine add_corners
 
@@ -117,12 +122,13 @@ contains
         repeat_from=1)
     call add_card(table)
     call add_field(table, 'SECID', 'I10 req >0', 'section number')
-    call add_field(table, 'ELFORM', 'I10 =1 0=d', '1 full; 2 mean dilatation; -1 -2 18 -18 62'// &
-        ' incompatible modes; 10 13 60 tetrahedra; 15 115 wedges')
+    call add_field(table, 'ELFORM', 'I10 =1 0=d', &
+        '1 full, 2 mean dilatation, -1 -2 18 -18 62 incompatible modes, 10 13 60 TET4, '// &
+        '15 115 WEDGE6')
     call add_field(table, 'AET', 'I10 fixed', 'of other kinds of element')
-    call add_field(table, '-', 'R10 ignored')
-    call add_field(table, '-', 'R10 ignored')
-    call add_field(table, '-', 'R10 ignored')
+    call add_field(table, 'NIP', 'R10 fixed', 'points are those of the form')
+    call add_field(table, '-', 'R10 fixed')
+    call add_field(table, '-', 'R10 fixed')
     call add_field(table, 'COHOFF', 'R10 fixed', 'of cohesive elements')
     call add_field(table, 'GASKEIT', 'R10 fixed', 'of gaskets')
   end subroutine add_solid_section

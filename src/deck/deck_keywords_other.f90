@@ -27,8 +27,8 @@ contains
     call refuse(table, 'MAT_PLASTIC_KINEMATIC', 'materials are *MAT_ELASTIC and *MAT_RIGID')
     call refuse(table, 'MAT_PIECEWISE_LINEAR_PLASTICITY', &
         'materials are *MAT_ELASTIC and *MAT_RIGID')
-    call refuse(table, 'ELEMENT_SOLID_H20', 'quadratic faces with eight nodes pull at contact:'// &
-        ' *ELEMENT_SOLID')
+    call refuse(table, 'ELEMENT_SOLID_H20', 'faces of eight nodes pull at contact: '// &
+        'take *ELEMENT_SOLID')
     call refuse(table, 'CONTACT_AUTOMATIC_SURFACE_TO_SURFACE', &
         'plane models take *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE')
     call refuse(table, 'DEFINE_TRANSFORMATION', '')

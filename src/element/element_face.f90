@@ -9,9 +9,9 @@ module element_face
 
 contains
 
-  !> a (3, nodes) [L2] = int N_i n dA over the face with nodes x (3, 3 or 4) [L], n outward where
-  !> they go round counter-clockwise seen from outside. Of a quadrilateral by 2 x 2 points, which
-  !> is exact: the cross product of its tangents is linear in each parameter.
+  !> a (3, nodes) [L2] = int N_i n dA over the face with nodes x (3, 3 or 4) [L], n outward
+  !> where they go round counter-clockwise seen from outside. Of a quadrilateral by 2 x 2
+  !> points, which is exact: the cross product of its tangents is linear in each parameter.
   pure subroutine face_areas(x, a)
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(out) :: a(:, :)

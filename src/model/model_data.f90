@@ -309,16 +309,16 @@ contains
     end do
   end function node_name
 
-  !> For each segment (two nodes) the one element that has it as an edge, and on which side: > 0
-  !> when the element runs from the first to the second node, < 0 when the other way; 0 when no
-  !> element or more than one has this edge.
+  !> For each segment (two nodes) the one element that has it as an edge, and on which side: >
+  !> 0 when the element runs from the first to the second node, < 0 when the other way; 0 when
+  !> no element or more than one has this edge.
   pure function segment_owner(model, segment) result(owner)
     type(model_t), intent(in) :: model
     integer, intent(in) :: segment(:, :)
     integer :: owner(size(segment, 2))
     integer, allocatable :: first(:), next(:)
     integer, allocatable :: hits(:)
-    integer :: e, f, s, a, b, node(2)
+    integer :: e, f, m, s, a, b, node(2)
     allocate (first(model%nodes), next(size(segment, 2)), hits(size(segment, 2)))
     first = 0
     do s = 1, size(segment, 2)
@@ -330,7 +330,7 @@ contains
     hits = 0
     do e = 1, model%mesh%n
       do f = 1, model%mesh%faces_of(e)
-        node = model%mesh%face_of(f, e)
+        call model%mesh%get_face(f, e, node, m)
         a = node(1)
         b = node(2)
         s = first(min(a, b))

@@ -35,8 +35,7 @@ contains
     faces%first = 0
     do e = 1, mesh%n
       do f = 1, mesh%faces_of(e)
-        m = mesh%size_of_face(f, e)
-        node(:m) = mesh%face_of(f, e)
+        call mesh%get_face(f, e, node, m)
         k = face_at(mesh, faces, node(:m))
         if (k > 0) then
           faces%count(k) = faces%count(k) + 1
@@ -53,85 +52,69 @@ contains
     end do
   end subroutine find_faces
 
+  !> Have two faces the same nodes?
+  pure logical function are_same(a, b)
+    integer, intent(in) :: a(:), b(:)
+    integer :: k
+    are_same = size(a) == size(b)
+    do k = 1, size(a)
+      are_same = are_same .and. any(b == a(k))
+    end do
+  end function are_same
+
   !> The face with these nodes, in any order; 0 = none.
   pure integer function face_at(mesh, faces, node)
     type(mesh_t), intent(in) :: mesh
     type(faces_t), intent(in) :: faces
     integer, intent(in) :: node(:)
-    integer :: other(most_face_nodes), k, m
-    m = size(node)
+    integer :: m, other(most_face_nodes)
     face_at = faces%first(minval(node))
     do while (face_at > 0)
-      if (mesh%size_of_face(faces%local(face_at), faces%owner(face_at)) == m) then
-        other(:m) = mesh%face_of(faces%local(face_at), faces%owner(face_at))
-        if (all([(any(other(:m) == node(k)), k=1, m)])) return
-      end if
+      call mesh%get_face(faces%local(face_at), faces%owner(face_at), other, m)
+      if (are_same(other(:m), node)) return
       face_at = faces%next(face_at)
     end do
   end function face_at
 
-  !> The first exterior triangle that lies on half an exterior quadrilateral, which hangs there:
-  !> the elements of both; 0 = none.
+  !> The first exterior triangle that lies on half an exterior quadrilateral, which hangs
+  !> there: the elements of both; 0 = none.
   subroutine find_hanging(mesh, nodes, faces, element)
     type(mesh_t), intent(in) :: mesh
     integer, intent(in) :: nodes
     type(faces_t), intent(in) :: faces
     integer, intent(out) :: element(2)
     integer, allocatable :: first(:), next(:, :)
-    integer :: k, m, q, i, node(4), other(4)
+    integer, dimension(most_face_nodes) :: node, other
+    integer :: k, m, q, i
     element = 0
-    if (.not. any(sizes(mesh, faces) == 3) .or. .not. any(sizes(mesh, faces) == 4)) return
     ! The quadrilaterals at each node: 4 q + m is corner m + 1 of face q.
     allocate (first(nodes), next(0:3, faces%n))
     first = 0
     do k = 1, faces%n
-      if (.not. is_exterior(mesh, faces, k, 4)) cycle
-      node = mesh%face_of(faces%local(k), faces%owner(k))
-      do m = 0, 3
-        next(m, k) = first(node(m + 1))
-        first(node(m + 1)) = 4*k + m
+      call mesh%get_face(faces%local(k), faces%owner(k), node, m)
+      if (m /= 4 .or. faces%count(k) > 1) cycle
+      do i = 0, 3
+        next(i, k) = first(node(i + 1))
+        first(node(i + 1)) = 4*k + i
       end do
     end do
     do k = 1, faces%n
-      if (.not. is_exterior(mesh, faces, k, 3)) cycle
-      node(:3) = mesh%face_of(faces%local(k), faces%owner(k))
+      call mesh%get_face(faces%local(k), faces%owner(k), node, m)
+      if (m /= 3 .or. faces%count(k) > 1) cycle
       q = first(node(1))
       do while (q > 0)
-        other = mesh%face_of(faces%local(q/4), faces%owner(q/4))
-        if (all([(any(other == node(i)), i=2, 3)])) then
-          element = [faces%owner(k), faces%owner(q/4)]
-          return
-        end if
+        call mesh%get_face(faces%local(q/4), faces%owner(q/4), other, m)
+        element = [faces%owner(k), faces%owner(q/4)]
+        if (any(other(:4) == node(2)) .and. any(other(:4) == node(3))) return
         q = next(mod(q, 4), q/4)
       end do
     end do
+    element = 0
   end subroutine find_hanging
 
-  !> Does face k belong to one element, and has it so many nodes?
-  pure logical function is_exterior(mesh, faces, k, nodes)
-    type(mesh_t), intent(in) :: mesh
-    type(faces_t), intent(in) :: faces
-    integer, intent(in) :: k, nodes
-    is_exterior = faces%count(k) == 1 .and. &
-        mesh%size_of_face(faces%local(k), faces%owner(k)) == nodes
-  end function is_exterior
-
-  !> Nodes of each face.
-  pure function sizes(mesh, faces) result(n)
-    type(mesh_t), intent(in) :: mesh
-    type(faces_t), intent(in) :: faces
-    integer :: n(faces%n)
-    integer :: k
-    do k = 1, faces%n
-      associate (e => faces%owner(k))
-        n(k) = mesh%kind(mesh%type(e))%item%face_size(faces%local(k))
-      end associate
-    end do
-  end function sizes
-
-  !> Segments (4, n), of triangles the last node 0, in the order of the faces that they are, seen
-  !> from outside counter-clockwise; owner: their elements, 0 where a segment is no exterior
-  !> face.
+  !> Segments (4, n), of triangles the last node 0, in the order of the faces that they are,
+  !> seen from outside counter-clockwise; owner: their elements, 0 where a segment is no
+  !> exterior face.
   subroutine orient_segments(mesh, nodes, segment, owner)
     type(mesh_t), intent(in) :: mesh
     integer, intent(in) :: nodes
@@ -147,7 +130,7 @@ contains
       if (k == 0) cycle
       if (faces%count(k) > 1) cycle
       owner(s) = faces%owner(k)
-      segment(:m, s) = mesh%face_of(faces%local(k), owner(s))
+      call mesh%get_face(faces%local(k), owner(s), segment(:, s), m)
     end do
   end subroutine orient_segments
 

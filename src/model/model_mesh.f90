@@ -31,10 +31,9 @@ module model_mesh
     procedure :: node_of
     procedure :: nodes_of
     procedure :: faces_of
-    procedure :: face_of
-    procedure :: size_of_face
     procedure :: facets_of
     procedure :: facet_of
+    procedure :: get_face
     procedure :: is_of_type
   end type mesh_t
 
@@ -138,25 +137,21 @@ contains
     faces_of = size(this%kind(this%type(e))%item%face, 2)
   end function faces_of
 
-  !> The nodes of face f of element e, outward.
-  pure function face_of(this, f, e) result(node)
+  !> The nodes of face f of element e, outward, in the front of an array, and how many they are.
+  pure subroutine get_face(this, f, e, node, m)
     class(mesh_t), intent(in) :: this
     integer, intent(in) :: f, e
-    integer :: node(this%size_of_face(f, e))
+    integer, intent(inout) :: node(:)
+    integer, intent(out) :: m
     integer :: k
     associate (face => this%kind(this%type(e))%item%face)
-      do k = 1, size(node)
+      m = count(face(:, f) > 0)
+      do k = 1, m
         node(k) = this%node(this%first(e) + face(k, f) - 1)
       end do
     end associate
-  end function face_of
+  end subroutine get_face
 
-  !> Nodes of face f of element e.
-  pure integer function size_of_face(this, f, e)
-    class(mesh_t), intent(in) :: this
-    integer, intent(in) :: f, e
-    size_of_face = this%kind(this%type(e))%item%face_size(f)
-  end function size_of_face
   !> Linear pieces of the surface of element e.
   pure integer function facets_of(this, e)
     class(mesh_t), intent(in) :: this

@@ -21,8 +21,8 @@ module output_fields
   type, public :: fields_t
     integer, allocatable :: node(:), cell(:)   !< rows of the model
     type(field_t), allocatable :: field(:)
-    !> (4, or in space 6, dofs of the cells): sxx, syy, szz, sxy, syz, szx by the displacements of
-    !> their nodes [F/L3]; only where stress is asked for
+    !> (4, or in space 6, dofs of the cells): sxx, syy, szz, sxy, syz, szx by the displacements
+    !> of their nodes [F/L3]; only where stress is asked for
     real(wp), allocatable :: stress_of(:, :)
     integer, allocatable :: cell_first(:), cell_node(:)   !< nodes of each cell, as rows
     real(wp), allocatable :: stress(:, :)      !< (6, cells), only for PRINCIPAL [F/L2]

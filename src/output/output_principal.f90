@@ -8,8 +8,8 @@ module output_principal
 
 contains
 
-  !> Principal stresses (3, n), the largest first, of stresses (6, n) xx yy zz xy yz zx [F/L2]: in
-  !> the plane in closed form, in space by rotations.
+  !> Principal stresses (3, n), the largest first, of stresses (6, n) xx yy zz xy yz zx [F/L2]:
+  !> in the plane in closed form, in space by rotations.
   pure subroutine fill_principal(dim, stress, values)
     integer, intent(in) :: dim
     real(wp), intent(in) :: stress(:, :)
@@ -42,6 +42,8 @@ contains
   pure function in_space(stress) result(values)
     real(wp), intent(in) :: stress(6)
     real(wp) :: values(3)
+    !> An entry that changes no digit of the values.
+    real(wp), parameter :: negligible = 1.0e-20_wp
     real(wp) :: a(3, 3), t, c, s, r(3, 3)
     integer :: pass, p, q, k
     a = reshape(stress([1, 4, 6, 4, 2, 5, 6, 5, 3]), [3, 3])
@@ -49,7 +51,7 @@ contains
       do k = 1, 3
         p = min(k, 1 + mod(k, 3))
         q = max(k, 1 + mod(k, 3))
-        if (.not. abs(a(p, q)) > zero) cycle
+        if (.not. abs(a(p, q)) > negligible*maxval(abs(a))) cycle
         t = half*(a(q, q) - a(p, p))/a(p, q)
         t = sign(one, t)/(abs(t) + sqrt(one + t**2))
         c = one/sqrt(one + t**2)

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A small XDMF file that shows the frames of all field files as one series in time, for readers
-!> that know no VTKHDF. It holds no numbers but the times: the rest is in the HDF5 files.
+!> A small XDMF file that shows the frames of all field files as one series in time, for
+!> readers that know no VTKHDF. It holds no numbers but the times: the rest is in the HDF5
+!> files.
 module output_xdmf
   use base_files, only: can_reserve, cut_file, disk_full, file_size, move_file, &
       remove_file
@@ -245,8 +246,8 @@ contains
     end if
   end subroutine close_text
 
-  !> Cells of one kind, or mixed: then kinds by their numbers in XDMF and nodes stand in the text,
-  !> for VTKHDF keeps them apart.
+  !> Cells of one kind, or mixed: then kinds by their numbers in XDMF and nodes stand in the
+  !> text, for VTKHDF keeps them apart.
   function topology(mesh, file) result(text)
     type(mesh_t), intent(in) :: mesh
     character(*), intent(in) :: file

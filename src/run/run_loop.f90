@@ -417,11 +417,10 @@ contains
     if (.not. is_final .and. run%state%cycle < run%looked + apart) return
     run%looked = run%state%cycle
     if (run%plan%contact) call check_overlap(run, status)
-    if (failed(status)) return
+    if (failed(status) .or. .not. allocated(run%bending)) return
     call run%timers%enter(phase_energy)
     call find_strain_energies(run%model, run%system, run%state, run%ledger)
-    if (allocated(run%bending) .and. &
-        sum(run%ledger%part_internal) > least_strain*run%ledger%largest) &
+    if (sum(run%ledger%part_internal) > least_strain*run%ledger%largest) &
         call look_at_bending(run%model, run%system, run%state%u, run%ledger%part_internal, &
         run%state%cycle, run%bending)
     call run%timers%enter(phase_other)
@@ -441,8 +440,7 @@ contains
     if (element > 0) call fail(status, status_numerical, 'element '// &
         to_text(run%model%mesh%id(element))//', at node '//to_text(run%model%node_id( &
         run%model%mesh%node_of(1, element)))//', is turned inside out: its boundary is not '// &
-        'that of a body any more', &
-        hint='check the loads and motions; take a smaller step')
+        'that of a body any more', hint='check the loads and motions; take a smaller step')
     if (failed(status)) call add_place(status, moment(run))
   end subroutine check_overlap
 

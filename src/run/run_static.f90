@@ -260,8 +260,8 @@ contains
     do e = 1, run%model%mesh%n
       if (run%model%mesh%part(e) == part) is_of(run%model%mesh%nodes_of(e)) = .true.
     end do
-    mean = sum(run%move, dim=2, mask=spread(is_of, 1, 2))/count(is_of)
-    centre = sum(run%model%x, dim=2, mask=spread(is_of, 1, 2))/count(is_of)
+    mean = sum(run%move, dim=2, mask=spread(is_of, 1, run%model%dim))/count(is_of)
+    centre = sum(run%model%x, dim=2, mask=spread(is_of, 1, run%model%dim))/count(is_of)
     turn = zero
     inertia = tiny(one)
     do i = 1, run%model%nodes

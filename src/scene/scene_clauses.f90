@@ -88,9 +88,9 @@ contains
     rows = pack([(k, k=1, size(in_set))], in_set)
   end subroutine read_clauses
 
-  !> Nodes of the exterior edges or faces of a set, (2 or 4, segments). One belongs to a part when
-  !> its element does, and lies in a box when all its nodes do. edges are found when they are
-  !> not there yet.
+  !> Nodes of the exterior edges or faces of a set, (2 or 4, segments). One belongs to a part
+  !> when its element does, and lies in a box when all its nodes do. edges are found when they
+  !> are not there yet.
   subroutine read_segment_clauses(deck, model, maps, box, head, edges, node)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
@@ -214,7 +214,7 @@ contains
       e = edges%first(row(k))
       do while (e > 0)
         if (count(edges%node(:, e) > 0) == n .and. &
-            all([(any(edges%node(:, e) == row(m)), m=1, n)])) return
+            all([(any(row(:n) == edges%node(m, e)), m=1, n)])) return
         e = edges%next(e)
       end do
     end do
@@ -271,7 +271,7 @@ contains
     type(model_t), intent(in) :: model
     type(edges_t), intent(out) :: edges
     integer, allocatable :: edge(:, :), owner(:)
-    integer :: e, f, n
+    integer :: e, f, m, n
     if (model%dim == 3) then
       call find_exterior_faces(model, edges)
       call chain_edges(model, edges)
@@ -282,7 +282,7 @@ contains
     do e = 1, model%mesh%n
       do f = 1, model%mesh%faces_of(e)
         n = n + 1
-        edge(:, n) = model%mesh%face_of(f, e)
+        call model%mesh%get_face(f, e, edge(:, n), m)
       end do
     end do
     owner = segment_owner(model, edge)
@@ -295,7 +295,7 @@ contains
     type(model_t), intent(in) :: model
     type(edges_t), intent(inout) :: edges
     type(faces_t) :: faces
-    integer :: k, m, n
+    integer :: k, n, m
     call find_faces(model%mesh, model%nodes, faces)
     n = count(faces%count(:faces%n) == 1)
     allocate (edges%node(4, n), edges%owner(n))
@@ -305,8 +305,7 @@ contains
       if (faces%count(k) > 1) cycle
       n = n + 1
       edges%owner(n) = faces%owner(k)
-      m = model%mesh%size_of_face(faces%local(k), faces%owner(k))
-      edges%node(:m, n) = model%mesh%face_of(faces%local(k), faces%owner(k))
+      call model%mesh%get_face(faces%local(k), faces%owner(k), edges%node(:, n), m)
     end do
   end subroutine find_exterior_faces
 

@@ -5,11 +5,12 @@ module scene_faces
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, full
+  use element_base, only: most_face_nodes
   use model_data, only: model_t
   use model_faces, only: faces_t, find_faces, find_hanging, face_at
   implicit none
   private
-  public :: check_faces, warn_of_tetrahedra
+  public :: check_faces, warn_of_locking
 
 contains
 
@@ -40,12 +41,13 @@ contains
     type(faces_t), intent(in) :: faces
     integer, intent(in) :: k
     character(:), allocatable :: names
-    integer :: e, f, last
+    integer :: e, f, last, m, node(most_face_nodes)
     names = ''
     last = 0
     do e = faces%owner(k), model%mesh%n
       do f = 1, model%mesh%faces_of(e)
-        if (face_at(model%mesh, faces, model%mesh%face_of(f, e)) /= k) cycle
+        call model%mesh%get_face(f, e, node, m)
+        if (face_at(model%mesh, faces, node(:m)) /= k) cycle
         if (len(names) > 0) names = names//', '
         names = names//to_text(model%mesh%id(e))
         last = e
@@ -56,26 +58,38 @@ contains
         'do elements stand twice in the deck?')
   end subroutine tell_shared
 
-  !> One warning for each part with tetrahedra of a material of a high Poisson ratio.
-  subroutine warn_of_tetrahedra(deck, model)
+  !> One warning for each part whose elements lock at the Poisson ratio of its material:
+  !> tetrahedra, and fully integrated elements near incompressibility.
+  subroutine warn_of_locking(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
-    !> Beyond it they are several times too stiff in bending (doc/theory.md 1).
-    real(wp), parameter :: high = 0.4_wp
-    logical :: has_them(size(model%part))
+    !> Beyond them they are several times too stiff in bending, or in all but a change of volume
+    !> (doc/theory.md 1).
+    real(wp), parameter :: high(2) = [0.4_wp, 0.49_wp]
+    logical :: has_them(2, size(model%part))
+    character(:), allocatable :: text
     real(wp) :: d(6, 6)
     integer :: e, p
     has_them = .false.
     do e = 1, model%mesh%n
-      if (model%mesh%is_of_type(e, 'TET4')) has_them(model%mesh%part(e)) = .true.
+      associate (p => model%mesh%part(e))
+        if (model%mesh%is_of_type(e, 'TET4')) has_them(1, p) = .true.
+        if (any([model%mesh%is_of_type(e, 'HEX8'), model%mesh%is_of_type(e, 'WEDGE6'), &
+            model%mesh%is_of_type(e, 'PYRAMID5')])) has_them(2, p) = .true.
+      end associate
     end do
     do p = 1, size(model%part)
-      if (.not. has_them(p)) cycle
+      if (.not. any(has_them(:, p))) cycle
       d = model%material(model%part(p)%material)%item%moduli(model%part(p)%plane)
-      if (d(1, 2) > high*(d(1, 1) + d(1, 2))) call add_warning(deck%problems, 'poisson', &
-          'part '//to_text(model%part(p)%id)//' locks: its tetrahedra are of constant '// &
-          'strain and its PR is above 0.4; take hexahedra, ELFORM 2 or -1')
+      text = 'part '//to_text(model%part(p)%id)//' locks: it has '
+      if (has_them(1, p) .and. d(1, 2) > high(1)*(d(1, 1) + d(1, 2))) then
+        call add_warning(deck%problems, 'poisson', text// &
+            'tetrahedra of constant strain and a PR above 0.4; take hexahedra, ELFORM 2 or -1')
+      else if (has_them(2, p) .and. d(1, 2) > high(2)*(d(1, 1) + d(1, 2))) then
+        call add_warning(deck%problems, 'poisson', text//'fully integrated elements and a '// &
+            'PR above 0.49; take hexahedra, ELFORM 2 or -1, or lower PR')
+      end if
     end do
-  end subroutine warn_of_tetrahedra
+  end subroutine warn_of_locking
 
 end module scene_faces

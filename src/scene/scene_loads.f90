@@ -32,8 +32,8 @@ contains
   end subroutine read_curves
 
   !> Points are scaled after the offsets are added. A curve of time that is shifted to later
-  !> times (OFFA > 0) is 0 from t = 0 to 0.999 OFFA, by two points that are put before the given
-  !> ones (S. Bala, "Curve offset in LS-DYNA", d3view.com, 2008).
+  !> times (OFFA > 0) is 0 from t = 0 to 0.999 OFFA, by two points that are put before the
+  !> given ones (S. Bala, "Curve offset in LS-DYNA", d3view.com, 2008).
   subroutine read_curve(deck, head, curve)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: head
@@ -243,8 +243,8 @@ contains
     end associate
   end subroutine find_pressure
 
-  !> A pressure on element faces as forces on their nodes: int N n dA of the reference geometry,
-  !> against the outward normal.
+  !> A pressure on element faces as forces on their nodes: int N n dA of the reference
+  !> geometry, against the outward normal.
   subroutine press_faces(model, segment, load)
     type(model_t), intent(in) :: model
     integer, intent(in) :: segment(:, :)

@@ -6,7 +6,7 @@ module scene_mesh
   use deck_data, only: deck_t
   use deck_problems, only: add_note, full, add_problem
   use model_data, only: model_t
-  use scene_faces, only: check_faces, warn_of_tetrahedra
+  use scene_faces, only: check_faces, warn_of_locking
   use scene_ids, only: maps_t, make_id_map, records_of
   use scene_solids, only: read_solids
   implicit none
@@ -145,7 +145,7 @@ contains
     integer :: k
     call check_shapes(deck, model)
     if (model%dim == 3 .and. deck%problems%count == 0) call check_faces(deck, model)
-    if (model%dim == 3) call warn_of_tetrahedra(deck, model)
+    if (model%dim == 3) call warn_of_locking(deck, model)
     allocate (used(model%nodes), part_used(size(model%part)))
     used = .false.
     part_used = .false.

@@ -43,8 +43,8 @@ contains
     end do
   end subroutine read_supports
 
-  !> *BOUNDARY_PRESCRIBED_MOTION_SET and _NODE. A direction of a node may have one motion and no
-  !> support.
+  !> *BOUNDARY_PRESCRIBED_MOTION_SET and _NODE. A direction of a node may have one motion and
+  !> no support.
   subroutine read_motions(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
@@ -175,17 +175,11 @@ contains
     call generation_nodes(deck, model, maps, record, list)
     spin%omega = deck%real(record, 'OMEGA')
     spin%centre = [(deck%real(second, axis(d)//'C'), d=1, 3)]
-    if (model%dim == 3) then
-      if (.not. deck%is_given(second, 'NZ') .and. any(abs([deck%real(second, 'NX'), &
-          deck%real(second, 'NY')]) > zero)) spin%axis(3) = zero
-      spin%axis = [deck%real(second, 'NX'), deck%real(second, 'NY'), &
-          spin%axis(3)*deck%real(second, 'NZ')]
-      spin%axis = spin%axis/norm2(spin%axis)
-    else if (abs(abs(deck%real(second, 'NZ')) - one) > zero) then
-      call deck%complain(second, 'NZ', 'expected 1 or -1: the axis of rotation is z')
-    else
-      spin%omega = sign(spin%omega, spin%omega*deck%real(second, 'NZ'))
-    end if
+    spin%axis = [(deck%real(second, 'N'//axis(d)), d=1, 3)]
+    if (.not. any(abs(spin%axis) > zero)) spin%axis(3) = one
+    if (model%dim == 2 .and. abs(abs(spin%axis(3)) - one) > zero) &
+        call deck%complain(second, 'NZ', 'expected 1 or -1: the axis of rotation is z')
+    spin%axis = spin%axis/norm2(spin%axis)
     call give_velocity(deck, model, record, list, spin, owner)
   end subroutine generate_velocity
 

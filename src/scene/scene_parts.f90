@@ -34,7 +34,7 @@ contains
       ids(k) = deck%integer(record(k), 'MID')
       call make_material(trim(material_keywords(law(k))), ids(k), &
           constants_of(deck, record(k)), model%material(k)%item)
-      if (deck%real(record(k), 'PR') > 0.49_wp) &
+      if (deck%real(record(k), 'PR') > 0.49_wp .and. .not. deck%in_space) &
           call add_warning(deck%problems, 'poisson', deck%place(record(k))// &
           ': PR > 0.49 of material '//to_text(ids(k))//': fully integrated elements '// &
           'lock; lower PR, or refine')

@@ -169,8 +169,9 @@ contains
     corners = 2*(model%dim - 1)
   end function corners
 
-  !> The elements of segments (corners, n), 0 where one is no exterior edge or face; in the plane
-  !> with the sign of SEGMENT_OWNER, in space the segments are put as their elements have them.
+  !> The elements of segments (corners, n), 0 where one is no exterior edge or face; in the
+  !> plane with the sign of SEGMENT_OWNER, in space the segments are put as their elements have
+  !> them.
   subroutine find_owners(model, segment, owner)
     type(model_t), intent(in) :: model
     integer, intent(inout) :: segment(:, :)
@@ -229,6 +230,11 @@ contains
     node = 0
     do m = 1, size(node)
       if (m == 4 .and. any(deck%integer(record, 'N4') == [0, deck%integer(record, 'N3')])) exit
+      if (m == 3 .and. deck%integer(record, 'N3') == 0) then
+        call deck%complain(record, 'N3', 'expected three or four nodes: a segment is a '// &
+            'face of an element in space')
+        return
+      end if
       node(m) = find_or_complain(deck, maps%node, record, name(m), &
           deck%integer(record, name(m)), 'node')
     end do

@@ -28,26 +28,30 @@ contains
     character(8), intent(out) :: form
     class(element_t), allocatable :: element
     integer :: k
+    logical :: is_available
     form = 'HEX8'
     do k = 1, size(code)
       if (code(k) == elform) exit
     end do
     if (k > size(code)) then
-      call deck%complain(record, 'ELFORM', 'expected 1 (full), 2 (mean dilatation), -1, -2, '// &
-          '18, -18 or 62 (incompatible modes), 10, 13 or 60 (tetrahedra), 15 or 115 '// &
+      call deck%complain(record, 'ELFORM', 'expected 1 (full), 2 (mean dilatation), -1, '// &
+          '-2, 18, -18 or 62 (incompatible modes), 10, 13 or 60 (tetrahedra), 15 or 115 '// &
           '(wedges), found '//to_text(elform), 'other element forms are not available in '// &
           'this version: take 2, or -1 for bending')
       return
     end if
     call make_element(trim(element_of(k)), element)
-    if (allocated(element)) then
+    is_available = allocated(element)
+    if (is_available) is_available = element%nodes <= 8    ! cards of more are not read yet
+    if (is_available) then
       form = element_of(k)
     else
-      call deck%complain(record, 'ELFORM', 'the element '//trim(element_of(k))//' of ELFORM '// &
-          to_text(elform)//' is not available in this version', 'take 2, -1 or 10')
+      call deck%complain(record, 'ELFORM', 'the element '//trim(element_of(k))// &
+          ' of ELFORM '//to_text(elform)//' is not available in this version', &
+          'take 2, -1 or 10')
     end if
-    if (elform == 1) call add_note(deck%problems, 'ELFORM 1 of *SECTION_SOLID is integrated '// &
-        'with 2 x 2 x 2 points, not with one')
+    if (elform == 1) call add_note(deck%problems, &
+        'ELFORM 1 of *SECTION_SOLID is integrated with 2 x 2 x 2 points, not with one')
     if (elform == 13) call add_note(deck%problems, 'ELFORM 13 of *SECTION_SOLID is the '// &
         'tetrahedron of constant strain, without pressures at nodes')
   end subroutine form_of
@@ -69,8 +73,7 @@ contains
             call deck%complain(r, 'PID', 'part '//to_text(nint(deck%number_at(r, 2)))// &
             ' is not defined', 'add a *PART with this number')
         call read_nodes(deck, r, maps, corner, name, nodes)
-        if (part > 0 .and. name == 'HEX8') name = model%part(part)%form
-        if (part > 0) call check_form(deck, model, r, part, name)
+        if (part > 0) call take_form(deck, model, r, part, name)
         call model%mesh%add(trim(name), nint(deck%number_at(r, 1)), part, r, corner(:nodes))
       end associate
     end do
@@ -148,18 +151,20 @@ contains
     end do
   end function are_different
 
-  !> A part of tetrahedra or of wedges has no others.
-  subroutine check_form(deck, model, record, part, name)
+  !> The hexahedra of a part are of its form, other elements what they are; a part of
+  !> tetrahedra or of wedges has no others.
+  subroutine take_form(deck, model, record, part, name)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
     integer, intent(in) :: record, part
-    character(8), intent(in) :: name
+    character(8), intent(inout) :: name
     associate (form => model%part(part)%form)
-      if (form(1:3) == 'HEX' .or. name == form) return
+      if (form(1:3) == 'HEX' .and. name == 'HEX8') name = form
+      if (form(1:3) == 'HEX' .or. form == '' .or. name == form) return
       call deck%complain(record, 'PID', 'the section of part '//to_text(model%part(part)%id)// &
-          ' is of '//trim(form)//' elements, and this is none', 'give these elements a part '// &
-          'of their own, or the section another ELFORM')
+          ' is of '//trim(form)//' elements, and this is none', &
+          'give these elements a part of their own, or the section another ELFORM')
     end associate
-  end subroutine check_form
+  end subroutine take_form
 
 end module scene_solids

@@ -1,5 +1,5 @@
-"""Faulty decks and their messages, to the letter. Each fault changes base.k (or two_blocks.k)
-in one place; the expected text is in expected.txt. `faults.py --write` makes that file anew
+"""Faulty decks and their messages, to the letter. Each fault changes base.k (or two_blocks.k,
+space.k) in one place; the expected text is in expected.txt. `faults.py --write` makes that file anew
 (read the difference!). Every fault must give exit code 2 and write no file."""
 
 import os
@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-BASES = {name: open(os.path.join(HERE, name + ".k")).read() for name in ("base", "two_blocks")}
+BASES = {name: open(os.path.join(HERE, name + ".k")).read() for name in ("base", "two_blocks", "space")}
 
 # Faults of base.k: name, text that is there, text that takes its place (more pairs may follow).
 NODE = "       2             1.0             0.0"
@@ -30,7 +30,12 @@ BASE_FAULTS = [
     ("refused keyword", "*END", "*MAT_BLATZ-KO_RUBBER\n*END"),
     ("refused family", "*END", "*CONSTRAINED_JOINT_REVOLUTE\n*END"),
     ("three-dimensional contact", "*END", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n*END"),
-    ("solid element", "*END", "*ELEMENT_SOLID\n*END"),
+    ("a solid in a plane deck", "*END", "*ELEMENT_SOLID\n2,1,1,2,3,4,1,2,3,4\n*END"),
+    ("a section of solids for shells", "*SECTION_SHELL\n         1        13                   4\n       1.0",
+     "*SECTION_SOLID\n         1         2"),
+    ("a body load along z in the plane", "*END", CURVE + "*LOAD_BODY_Z\n1,1.0\n*END"),
+    ("a velocity along z in the plane", "*INITIAL_VELOCITY\n         1\n       1.0",
+     "*INITIAL_VELOCITY\n         1\n       1.0       0.0       2.0"),
     ("option of another keyword", "*INITIAL_VELOCITY\n", "*INITIAL_VELOCITY_TITLE\n"),
     ("ids of ten columns", "*KEYWORD", "*KEYWORD I10=Y"),
     ("stray card", "*KEYWORD\n", "*KEYWORD\n         1\n"),
@@ -701,6 +706,51 @@ BLOCK_FAULTS = [
 ]
 
 # name, main deck, other files, options
+# Faults of space.k.
+FIRST = "       1       1       1       2       5       4       7       8      11      10"
+SECOND = "       2       1       2       3       6       5       8       9      12      11"
+FORM = "*SECTION_SOLID\n         1         2"
+SEGMENT = "         7         8        11        10"
+SPACE_FAULTS = [
+    ("nodes that repeat otherwise", FIRST, "1,1,1,2,5,4,7,7,11,10"),
+    ("a hexahedron of four nodes", FIRST, "1,1,1,2,5,4"),
+    ("one node twice in a tetrahedron", SECOND, "2,1,2,3,3,8,8,8,8,8"),
+    ("two cards where one was begun", SECOND, "2,1\n2,3,6,5,8,9,12,11"),
+    ("one card where two were begun", FIRST, "1,1\n1,2,5,4,7,8,11,10"),
+    ("ten nodes", FIRST + "\n" + SECOND, "1,1\n1,2,5,4,7,8,11,10,3,6"),
+    ("a node of a solid that is not there", FIRST, FIRST.replace(" 11 ", " 13 ")),
+    ("a solid of a part that is not there", FIRST, "1,2,1,2,5,4,7,8,11,10"),
+    ("a solid twice", SECOND, SECOND.replace("       2", "       1", 1)),
+    ("a solid inside out", FIRST, "1,1,7,8,11,10,1,2,5,4"),
+    ("a flat solid", "      10             0.0             1.0             1.0",
+     "      10             0.0             0.0             1.0"),
+    ("three elements at one face", SECOND, SECOND + "\n3,1,2,3,6,5,8,9,12,11"),
+    ("a triangle on half a quadrilateral", SECOND, "2,1,2,3,5,8,8,8,8,8"),
+    ("shells beside solids", "*PART", "*ELEMENT_SHELL\n3,1,1,2,5,4\n*PART"),
+    ("a section of shells for solids", FORM, "*SECTION_SHELL\n         1        13                   4\n       1.0"),
+    ("a form with rotations", FORM, FORM[:-1] + "3"),
+    ("twenty nodes", FORM, FORM[:-2] + "23"),
+    ("quadratic tetrahedra", FORM, FORM[:-2] + "16"),
+    ("an unknown form", FORM, FORM[:-2] + "99"),
+    ("hexahedra in a part of tetrahedra", FORM, FORM[:-2] + "10"),
+    ("hexahedra in a part of wedges", FORM, FORM[:-2] + "15"),
+    ("ambient elements", FORM, FORM + "         5"),
+    ("an element card of twenty nodes", "*PART", "*ELEMENT_SOLID_H20\n*PART"),
+    ("a rigid part in space", "*MAT_ELASTIC\n" + MATERIAL, "*MAT_RIGID\n         1     0.001\n\n"),
+    ("plane contact in space", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE\n0,\n\n*END"),
+    ("contact in space", "*END", "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0,\n\n*END"),
+    ("a flat wall in space", "*END", "*RIGIDWALL_GEOMETRIC_FLAT\n0,\n0,0,0,0,1,0\n1,0,0\n*END"),
+    ("a segment of two nodes in space", SEGMENT, "7,8"),
+    ("a segment inside", SEGMENT, "2,5,11,8"),
+    ("a segment of four nodes of two faces", SEGMENT, "7,8,11,4"),
+    ("a pressure inside", "*END", "*LOAD_SEGMENT\n1,1.0,,2,5,11,8\n*END"),
+    ("a clause for a face inside", "*END", "*SET_SEGMENT_GENERAL\n2,\nSEG,2,5,11,8\n*END"),
+    ("a segment of a node twice", SEGMENT, "7,8,8,10"),
+    ("direction 4 in space", "*END", "*LOAD_NODE_SET\n1,4,1\n*END"),
+    ("triangles with the mass DISPERSION in space", FIRST + "\n" + SECOND,
+     "1,1,1,2,5,4,7,8,11,10\n2,1,2,3,5,8,8,8,8,8", "*END", "*BIPACT_MASS\nDISPERSION\n*END"),
+]
+
 FILE_FAULTS = [
     (
         "fault in an include",
@@ -773,6 +823,7 @@ def main():
     folder = os.environ["TMP"]
     found = [message(f[0], changed(BASES["base"], f), folder) for f in BASE_FAULTS]
     found += [message(f[0], changed(BASES["two_blocks"], f), folder) for f in BLOCK_FAULTS]
+    found += [message(f[0], changed(BASES["space"], f), folder) for f in SPACE_FAULTS]
     found += [
         message(name, text, folder, files, options)
         for name, text, files, options in FILE_FAULTS

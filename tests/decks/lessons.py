@@ -1,4 +1,4 @@
-"""Runs the decks of input/lessons and checks what each of them says to expect:
+"""Runs the decks of input/lessons and input/space and checks what each of them says to expect:
 $ expect: TABLE [ID=N] COLUMN last VALUE +- TOLERANCE, or TABLE COLUMN max VALUE at least."""
 
 import glob
@@ -46,7 +46,9 @@ def solved(deck):
 
 
 def main():
-    decks = sorted(glob.glob(os.path.join(scenes.ROOT, "input", "lessons", "*.k")))
+    decks = []
+    for folder in ("lessons", "space"):
+        decks += sorted(glob.glob(os.path.join(scenes.ROOT, "input", folder, "*.k")))
     check(len(decks) >= 8, "the lessons are there")
     for deck in decks:
         expected(os.path.basename(deck)[:-2], deck, solved(deck))

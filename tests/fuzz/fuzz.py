@@ -127,7 +127,7 @@ KEYWORDS = []
 def corpus(words=()):
     """{name: bytes} of the decks to damage, all small and short; those that hold a word."""
     decks = {}
-    for folder in ("tests/bad_decks", "tests/fuzz/decks", "input/cards", "input/lessons"):
+    for folder in ("tests/bad_decks", "tests/fuzz/decks", "input/cards", "input/lessons", "input/space"):
         path = os.path.join(ROOT, folder)
         for name in sorted(os.listdir(path)) if os.path.isdir(path) else ():
             if name.endswith(".k"):

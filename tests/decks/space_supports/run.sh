@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# space_supports in space.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/space.py" space_supports
