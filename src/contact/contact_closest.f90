@@ -95,8 +95,8 @@ contains
   end function share
 
   !> Minimum of |p - x|^2/2 in the square, from the best of nine points. The second derivative
-  !> of the place enters where the matrix stays positive; a parameter at its bound whose gradient
-  !> pushes outward is held; the step is halved until the distance falls.
+  !> of the place enters where the matrix stays positive; a parameter at its bound whose
+  !> gradient pushes outward is held; the step is halved until the distance falls.
   pure subroutine closest_on_quad(x, p, at)
     real(wp), intent(in) :: x(:, :), p(3)
     real(wp), intent(out) :: at(2)
