@@ -782,9 +782,9 @@ def punch_force(load, share):
 
 
 class SpinningTube:
-    """A tube of regular polygons, one element through the wall, PR 0, that flies at a rigid wall
+    """A tube of regular polygons, one element through, PR 0, that flies at a rigid plane
     along its axis and spins about it: a plane pressure wave, and a torsional wave with Coulomb
-    friction at the foot (plane waves of rods; friction of a ring of constant pressure). The areas
+    friction at the foot (plane waves of rods; friction of a ring of constant pressure). Areas
     are those of the polygons, so that the mesh has them exactly."""
 
     def __init__(self, corners, inner, outer, length, modulus, density, velocity, mu):

@@ -256,15 +256,20 @@ contains
     type(certificate_t), intent(out) :: certificate
     type(status_t), intent(inout) :: status
     real(wp) :: tolerance
-    integer :: attempt, sweeps
+    integer :: attempt, sweeps, k
+    logical :: is_deep
     tolerance = contact%cone%tolerance
     sweeps = 0
     do attempt = 1, 3
       call solve_friction(contact, certificate, status)
       sweeps = sweeps + certificate%sweeps
       if (failed(status) .or. contact%rule%level /= level_position) exit
-      if (.not. any(-contact%work%u(1, :contact%n) > &
-          contact%penetration_tolerance*contact%rows%length(contact%row_of(:contact%n)))) exit
+      is_deep = .false.
+      do k = 1, contact%n
+        is_deep = is_deep .or. -contact%work%u(1, k) > &
+            contact%penetration_tolerance*contact%rows%length(contact%row_of(k))
+      end do
+      if (.not. is_deep) exit
       contact%cone%tolerance = 1.0e-2_wp*contact%cone%tolerance
     end do
     contact%cone%tolerance = tolerance

@@ -8,9 +8,9 @@ module output_rows
   use base_status, only: status_t
   use base_timers, only: timers_t, phase_input, phase_assemble, phase_factor, phase_solve, &
       phase_search, phase_contact, phase_output
-  use element_base, only: most_nodes, strains
   use model_data, only: model_t
   use model_state, only: state_t
+  use output_history, only: history_t, history_stress
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers, add_vector
   use time_ledger, only: ledger_t
@@ -120,40 +120,33 @@ contains
   end subroutine write_rbdout
 
   !> Stress (mean over the Gauss points) and strain energy of the history elements.
-  subroutine write_elout(file, writer, model, system, state, status)
+  subroutine write_elout(file, writer, history, model, system, state, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
+    type(history_t), intent(in) :: history
     type(model_t), intent(in) :: model
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     type(status_t), intent(inout) :: status
-    real(wp) :: stress(6), x(3, most_nodes), u(3, most_nodes)
-    integer :: k, e, n, i
+    real(wp) :: stress(6)
+    integer :: k, e
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
-      n = model%mesh%count_of(e)
-      do i = 1, n
-        x(:model%dim, i) = model%x(:, model%mesh%node_of(i, e))
-        u(:model%dim, i) = state%u(:, model%mesh%node_of(i, e))
-      end do
+      call history_stress(history, k, state%u, stress(:size(history%b, 1)))
       associate (part => model%part(model%mesh%part(e)))
-        associate (material => model%material(part%material)%item)
-          stress = matmul(material%moduli(part%plane), &
-              model%mesh%kind(model%mesh%type(e))%item%mean_strain(x(:model%dim, :n), &
-              u(:model%dim, :n)))
-          call begin_row(file, status)
-          call add_number(file, writer, state%time)
-          call add_count(file, model%mesh%id(e))
-          call add_count(file, part%id)
-          if (model%dim == 2) then
-            call add_numbers(file, writer, [stress(1), stress(2), &
-                material%out_of_plane_stress(part%plane, stress), stress(3), zero, zero])
-          else
-            call add_numbers(file, writer, stress)
-          end if
-          call add_number(file, writer, half*element_product(system, e, state%u))
-          call end_row(file)
-        end associate
+        call begin_row(file, status)
+        call add_number(file, writer, state%time)
+        call add_count(file, model%mesh%id(e))
+        call add_count(file, part%id)
+        if (model%dim == 2) then
+          call add_numbers(file, writer, [stress(1), stress(2), model%material( &
+              part%material)%item%out_of_plane_stress(part%plane, stress(:3)), stress(3), &
+              zero, zero])
+        else
+          call add_numbers(file, writer, stress)
+        end if
+        call add_number(file, writer, half*element_product(system, e, state%u))
+        call end_row(file)
       end associate
     end do
   end subroutine write_elout

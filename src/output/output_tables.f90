@@ -11,6 +11,7 @@ module output_tables
       table_elout, table_rcforc, table_rwforc, table_sleout, table_spcforc, table_ncforc, &
       table_timing, table_rbdout
   use model_data, only: model_t
+  use output_history, only: history_t, make_history
   use output_table, only: table_file_t, open_table, row_is_due, next_due, add_number, &
       close_table, reopen_table, check_rows, write_out
   implicit none
@@ -19,6 +20,7 @@ module output_tables
   type, public :: tables_t
     type(table_file_t) :: file(table_count)
     type(real_writer_t) :: writer
+    type(history_t) :: history       !< only with ELOUT
     logical :: any_on = .false.
   end type tables_t
 
@@ -60,6 +62,7 @@ contains
         'solve search contact output factors solves sweeps')
     tables%any_on = any(tables%file%on)
     if (tables%any_on) call make_real_writer(tables%writer)
+    if (tables%file(table_elout)%on) call make_history(model, tables%history)
 
   contains
 

@@ -48,7 +48,8 @@ contains
       case (table_nodout)
         call write_nodout(file, writer, model, state, status)
       case (table_elout)
-        call write_elout(file, writer, model, run%system, state, status)
+        call write_elout(file, writer, run%tables%history, model, run%system, state, &
+            status)
       case (table_rbdout)
         call write_rbdout(file, writer, model, state, status)
       case (table_rcforc)

@@ -54,8 +54,8 @@ contains
     integer :: second, third
     name = deck%table%keyword(deck%block(deck%record(record)%block)%keyword)%canonical
     if (model%dim == 3 .and. name /= 'RIGIDWALL_PLANAR') then
-      call deck%complain(record, '', '*'//trim(name)//' is not available in space in this version', &
-          'a wall in space is a *RIGIDWALL_PLANAR')
+      call deck%complain(record, '', '*'//trim(name)//' is not available in space in this '// &
+          'version', 'a wall in space is a *RIGIDWALL_PLANAR')
       return
     end if
     second = deck%follow(record, 2)
