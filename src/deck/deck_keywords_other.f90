@@ -33,10 +33,26 @@ contains
         'plane models take *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE')
     call refuse(table, 'DEFINE_TRANSFORMATION', '')
     call add_options(table)
+    call add_solid_options(table)
     do k = 1, size(families)
       call refuse(table, trim(families(k)), '')
     end do
   end subroutine add_refused_keywords
+
+  !> Options of solids and their sets.
+  subroutine add_solid_options(table)
+    type(table_t), intent(inout) :: table
+    call refuse_all(table, [character(keyword_length) :: &
+        'ELEMENT_SOLID_DOF', 'ELEMENT_SOLID_H27', 'ELEMENT_SOLID_H64', &
+        'ELEMENT_SOLID_H8TOH20', 'ELEMENT_SOLID_H8TOH27', 'ELEMENT_SOLID_H8TOH64', &
+        'ELEMENT_SOLID_ORTHO', 'ELEMENT_SOLID_P21', 'ELEMENT_SOLID_P40', &
+        'ELEMENT_SOLID_P6TOP21', 'ELEMENT_SOLID_PERI', 'ELEMENT_SOLID_T15', &
+        'ELEMENT_SOLID_T20', 'ELEMENT_SOLID_T4TOT10', 'ELEMENT_SOLID_T4TOT15', &
+        'ELEMENT_SOLID_TET4TOTET10', 'SECTION_SOLID_EFG', 'SECTION_SOLID_MISC', &
+        'SECTION_SOLID_PERI', 'SECTION_SOLID_SPG', 'SET_SOLID_ADD', 'SET_SOLID_COLLECT', &
+        'SET_SOLID_GENERAL_COLLECT', 'SET_SOLID_GENERATE_COLLECT', &
+        'SET_SOLID_GENERATE_INCREMENT'])
+  end subroutine add_solid_options
 
   !> Options of keywords that are used, and names that a slip of the pen makes of those.
   subroutine add_options(table)

@@ -19,10 +19,11 @@ module element_wedge6
 
 contains
 
-  !> Its data. Of the two triangles of VTK the first looks away from the second.
+  !> Its data. Of the two triangles of VTK the first looks toward the second (since VTK 9.6 or
+  !> 9.7; before it looked away).
   pure function new_wedge6() result(element)
     type(wedge6_t) :: element
-    element = wedge6_t(name='WEDGE6', dim=3, nodes=6, vtk=13, vtk_order=[1, 2, 5, 4, 3, 6], &
+    element = wedge6_t(name='WEDGE6', dim=3, nodes=6, vtk=13, vtk_order=[1, 5, 2, 4, 6, 3], &
         face=reshape([1, 5, 6, 4, 2, 3, 6, 5, 1, 2, 5, 0, 4, 6, 3, 0, 1, 4, 3, 2], [4, 5]))
   end function new_wedge6
 
