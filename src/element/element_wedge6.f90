@@ -19,7 +19,7 @@ module element_wedge6
 
 contains
 
-  !> Its data. Of the two triangles of VTK the first looks toward the second (since VTK 9.6 or
+  !> Its data. Of the two triangles of VTK the first looks toward the second (since VTK
   !> 9.7; before it looked away).
   pure function new_wedge6() result(element)
     type(wedge6_t) :: element
