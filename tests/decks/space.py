@@ -464,7 +464,7 @@ def space_fields():
                 p = box.x[cell]
                 if form == "WEDGE6":    # normal of the first triangle away from the second
                     normal = np.cross(p[1] - p[0], p[2] - p[0])
-                    check(normal @ (p[3:].mean(axis=0) - p[:3].mean(axis=0)) < 0.0, "wedge")
+                    check(normal @ (p[3:].mean(axis=0) - p[:3].mean(axis=0)) > 0.0, "wedge")
                     check(all(abs(p[k] - p[k + 3]) @ [1, 0, 1] < 0.5 for k in range(3)), "edges")
             u = root["PointData/U"][n : 2 * n]
             at_most(np.abs(u - box.x @ gradient.T).max(), 1.0e-15, form + ": U")
