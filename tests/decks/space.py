@@ -462,7 +462,7 @@ def space_fields():
                 cell = ids[offsets[e] : offsets[e + 1]]
                 check(set(cell) == set(box.elements[e]), form + ": nodes")
                 p = box.x[cell]
-                if form == "WEDGE6":    # normal of the first triangle away from the second
+                if form == "WEDGE6":    # normal of the first triangle toward the second
                     normal = np.cross(p[1] - p[0], p[2] - p[0])
                     check(normal @ (p[3:].mean(axis=0) - p[:3].mean(axis=0)) > 0.0, "wedge")
                     check(all(abs(p[k] - p[k + 3]) @ [1, 0, 1] < 0.5 for k in range(3)), "edges")
