@@ -3,12 +3,11 @@
 module assembly_blocks
   use base_kinds, only: wp, zero
   use model_data, only: model_t
+  use model_mesh, only: block_t
   implicit none
   private
 
-  !> Elements first..last of one type and part.
-  type, public :: element_block_t
-    integer :: first = 0, last = 0
+  type, extends(block_t), public :: element_block_t
     integer :: nodes = 0                    !< of an element
     logical :: is_rigid = .false.           !< never strained: no stiffness, not on the graph
     integer, allocatable :: node(:, :)      !< (nodes, n) rows of nodes
@@ -31,8 +30,7 @@ contains
     allocate (block(size(model%mesh%block)), block_of(model%mesh%n))
     do b = 1, size(block)
       associate (own => block(b), from => model%mesh%block(b), mesh => model%mesh)
-        own%first = from%first
-        own%last = from%last
+        own%block_t = from
         own%is_rigid = model%part(from%part)%is_rigid
         own%nodes = mesh%count_of(from%first)
         n = from%last - from%first + 1
@@ -49,22 +47,20 @@ contains
     type(element_block_t), intent(inout) :: block(:)
     integer :: b
     do b = 1, size(block)
-      if (.not. block(b)%is_rigid) &
-          call block_stiffness(model, model%mesh%block(b)%part, block(b))
+      if (.not. block(b)%is_rigid) call block_stiffness(model, block(b))
     end do
   end subroutine assemble_stiffness
 
-  subroutine block_stiffness(model, p, block)
+  subroutine block_stiffness(model, block)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: p
     type(element_block_t), intent(inout) :: block
     real(wp), allocatable :: ke(:, :), moduli(:, :)
     integer :: i, m, d
     d = size(model%x, 1)
     m = d*block%nodes
     allocate (ke(m, m), block%stiffness(m - d, m - d, size(block%node, 2)))
-    associate (part => model%part(p), &
-        element => model%mesh%kind(model%mesh%type(block%first))%item)
+    associate (part => model%part(block%part), &
+        element => model%mesh%kind(block%type)%item)
       moduli = model%material(part%material)%item%moduli(part%plane)
       do i = 1, size(block%node, 2)
         call element%stiffness(model%x(:, block%node(:, i)), moduli, part%thickness, ke)

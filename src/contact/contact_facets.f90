@@ -3,8 +3,9 @@
 !> from outside counter-clockwise.
 module contact_facets
   use base_kinds, only: wp, zero, one, half
+  use linalg_dense, only: cross
   use model_data, only: model_t
-  use model_faces, only: faces_t, find_faces
+  use model_faces, only: exterior_faces
   implicit none
   private
 
@@ -26,22 +27,15 @@ contains
   subroutine exterior_facets(model, facets)
     type(model_t), intent(in) :: model
     type(facets_t), intent(out) :: facets
-    type(faces_t) :: faces
-    integer :: k, m, n
-    call find_faces(model%mesh, model%nodes, faces)
-    n = count(faces%count(:faces%n) == 1)
-    facets%n = n
-    allocate (facets%node(4, n), facets%part(n), facets%is_listed(n), facets%normal(3, n), &
-        facets%size(n))
-    facets%node = 0
+    integer, allocatable :: owner(:)
+    integer :: k
+    call exterior_faces(model%mesh, model%nodes, 4, facets%node, owner)
+    facets%n = size(owner)
+    facets%part = model%mesh%part(owner)
+    allocate (facets%is_listed(facets%n), facets%normal(3, facets%n), facets%size(facets%n))
     facets%is_listed = .false.
-    n = 0
-    do k = 1, faces%n
-      if (faces%count(k) > 1) cycle
-      n = n + 1
-      call model%mesh%get_face(faces%local(k), faces%owner(k), facets%node(:, n), m)
-      facets%part(n) = model%mesh%part(faces%owner(k))
-      call measure_facet(model%x, facets, n)
+    do k = 1, facets%n
+      call measure_facet(model%x, facets, k)
     end do
   end subroutine exterior_facets
 
@@ -60,7 +54,7 @@ contains
         b = x(:, node(3)) - x(:, node(1))
       end if
     end associate
-    facets%normal(:, k) = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+    facets%normal(:, k) = cross(a, b)
     area = norm2(facets%normal(:, k))
     facets%normal(:, k) = facets%normal(:, k)/max(area, tiny(one))
     facets%size(k) = sqrt(area)

@@ -153,7 +153,7 @@ contains
     logical, intent(out) :: is_due
     real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b, moved
     if (allocated(pairing%one_way)) then
-      moved = motion_along(pairing, u, pairing%reference_1, -one)
+      moved = motion_along(pairing, u, pairing%reference_1)
       pairing%remaining_margin = pairing%safe_distance - moved
       is_due = moved + 2.0_wp*max(zero, moved - pairing%moved) >= pairing%safe_distance
       pairing%moved = moved
@@ -211,7 +211,7 @@ contains
     real(wp), intent(out) :: moved
     real(wp) :: mean_a(3), mean_b(3), spread_a, spread_b
     if (allocated(pairing%one_way)) then
-      moved = motion_along(pairing, u, pairing%reference_1, -one) &
+      moved = motion_along(pairing, u, pairing%reference_1) &
           + motion_along(pairing, x)
       return
     end if
@@ -224,18 +224,18 @@ contains
     moved = sqrt(sum((mean_a - mean_b)**2)) + spread_a + spread_b
   end subroutine motion_at_end
 
-  !> Largest motion of a node of side 1 along the one direction that counts, of u, or of u +
-  !> factor * other (dim, nodes of the side).
-  pure real(wp) function motion_along(pairing, u, other, factor) result(largest)
+  !> Largest motion of a node of side 1 along the one direction that counts, of u, or of u -
+  !> reference (dim, nodes of the side).
+  pure real(wp) function motion_along(pairing, u, reference) result(largest)
     class(pairing_t), intent(in) :: pairing
     real(wp), intent(in), contiguous :: u(:, :)
-    real(wp), intent(in), optional :: other(:, :), factor
+    real(wp), intent(in), optional :: reference(:, :)
     real(wp) :: d
     integer :: k
     largest = zero
     do k = 1, size(pairing%side(1)%node)
       d = dot_product(pairing%one_way, u(:, pairing%side(1)%node(k)))
-      if (present(other)) d = d + factor*dot_product(pairing%one_way, other(:, k))
+      if (present(reference)) d = d - dot_product(pairing%one_way, reference(:, k))
       largest = max(largest, abs(d))
     end do
   end function motion_along

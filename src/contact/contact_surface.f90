@@ -4,10 +4,10 @@
 !> part of that boundary; the turn of the boundary at a node is that of the whole.
 module contact_surface
   use base_kinds, only: wp, zero, one, half
-  use base_sort, only: sort_order
   use contact_facets, only: facets_t, exterior_facets, corners_of
   use model_data, only: model_t, side_part_set, side_node_set, side_part, &
       side_segment_set, side_all_nodes, side_parts
+  use model_faces, only: exterior_faces
   implicit none
   private
 
@@ -37,7 +37,7 @@ module contact_surface
     real(wp) :: shortest = huge(one)       !< edge [L]
   end type surface_t
 
-  public :: make_surface, edge_tangent, turn_between, shortest_edge_at
+  public :: make_surface, turn_between, shortest_edge_at
 
 contains
 
@@ -50,7 +50,7 @@ contains
     type(surface_t), intent(out) :: surface
     integer, intent(in), optional :: parts(:)
     logical, allocatable :: part_in(:), node_in(:)
-    integer, allocatable :: boundary(:, :), part(:), edge(:, :)
+    integer, allocatable :: boundary(:, :), owner(:), part(:), edge(:, :)
     logical, allocatable :: is_listed(:), taken(:)
     integer :: k
     if (model%dim == 3) then
@@ -62,7 +62,8 @@ contains
     if (present(parts)) part_in(parts) = .true.
     if (kind == side_part_set) part_in(model%part_set(row)%member) = .true.
     if (kind == side_part) part_in(row) = .true.
-    call exposed_edges(model, boundary, part)
+    call exterior_faces(model%mesh, model%nodes, 2, boundary, owner)
+    part = model%mesh%part(owner)
     is_listed = part_in(part)
     select case (kind)
     case (side_node_set)
@@ -156,39 +157,6 @@ contains
     kept(1, :) = pack(list(1, :), keep)
     kept(2, :) = pack(list(2, :), keep)
   end function pack_columns
-
-  !> Edges that belong to exactly one element, and the parts of those elements.
-  subroutine exposed_edges(model, edge, part)
-    type(model_t), intent(in) :: model
-    integer, allocatable, intent(out) :: edge(:, :), part(:)
-    integer, allocatable :: all_edges(:, :), all_parts(:), order(:)
-    logical, allocatable :: single(:)
-    integer :: e, f, m, n, i, j, first
-    n = sum([(model%mesh%faces_of(e), e=1, model%mesh%n)])
-    allocate (all_edges(2, n), all_parts(n))
-    n = 0
-    do e = 1, model%mesh%n
-      do f = 1, model%mesh%faces_of(e)
-        n = n + 1
-        call model%mesh%get_face(f, e, all_edges(:, n), m)
-        all_parts(n) = model%mesh%part(e)
-      end do
-    end do
-    allocate (order(n), single(n))
-    call sort_order(minval(all_edges(:, 1:n), dim=1), order)
-    single = .true.
-    first = 1
-    do i = 2, n
-      if (minval(all_edges(:, order(i))) /= minval(all_edges(:, order(first)))) first = i
-      do j = first, i - 1
-        if (maxval(all_edges(:, order(j))) /= maxval(all_edges(:, order(i)))) cycle
-        single(order(i)) = .false.
-        single(order(j)) = .false.
-      end do
-    end do
-    edge = pack_columns(all_edges(:, 1:n), single)
-    part = pack(all_parts(1:n), single)
-  end subroutine exposed_edges
 
   subroutine measure_edges(model, surface)
     type(model_t), intent(in) :: model
@@ -293,12 +261,5 @@ contains
     shortest_edge_at = length
     if (all(surface%chain(:, k) > 0)) shortest_edge_at = minval(surface%chain_length(:, k))
   end function shortest_edge_at
-
-  !> t = n turned by +90 degrees: along the edge.
-  pure function edge_tangent(normal) result(t)
-    real(wp), intent(in) :: normal(2)
-    real(wp) :: t(2)
-    t = [-normal(2), normal(1)]
-  end function edge_tangent
 
 end module contact_surface

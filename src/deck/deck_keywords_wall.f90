@@ -72,10 +72,10 @@ contains
     else
       call add_field(table, 'XT', 'R10 =0.0 [L]', 'a point T on the wall')
       call add_field(table, 'YT', 'R10 =0.0 [L]', 'the same')
-      call add_field(table, 'ZT', 'R10 =0.0 [L]', 'the same as ZH')
+      call add_field(table, 'ZT', 'R10 =0.0 [L]', 'the same')
       call add_field(table, 'XH', 'R10 =0.0 [L]', 'a point H in front of it: the normal is TH')
       call add_field(table, 'YH', 'R10 =0.0 [L]', 'the same')
-      call add_field(table, 'ZH', 'R10 =0.0 [L]', 'the same as ZT: the model is plane')
+      call add_field(table, 'ZH', 'R10 =0.0 [L]', 'the same as ZT in a plane model')
     end if
     call add_field(table, 'FRIC', 'R10 =0.0 >=0 <=1', &
         'coefficient of friction mu; 1 = no sliding (mu = 1e6)')

@@ -3,6 +3,7 @@
 !> its shape functions, its quadrature and its faces; the rest follows here.
 module element_base
   use base_kinds, only: wp, zero, one, half
+  use linalg_dense, only: cross
   implicit none
   private
   !> Of an element, of a face, of a rule of integration, and strains at a point in space.
@@ -66,7 +67,7 @@ module element_base
     end subroutine rule_i
   end interface
 
-  public :: strain_matrix, strains, jacobian_at, gauss
+  public :: strain_matrix, strains, jacobian_at, corner_points, gauss
 
   real(wp), parameter :: gauss = one/sqrt(3.0_wp)
 
@@ -98,6 +99,20 @@ contains
     real(wp), intent(out) :: xi(:, :), w(:)
     call this%rule(points, xi, w)
   end subroutine element_mass_rule
+
+  !> A point at each corner (dim, corners) of the reference element, its coordinate in direction
+  !> i scaled by a(i); weights one. a = 1/sqrt(3) is Gauss' rule, a = 1 the lumped mass.
+  pure subroutine corner_points(corner, a, points, xi, w)
+    real(wp), intent(in) :: corner(:, :), a(:)
+    integer, intent(out) :: points
+    real(wp), intent(out) :: xi(:, :), w(:)
+    integer :: k
+    points = size(corner, 2)
+    w(:points) = one
+    do k = 1, points
+      xi(:size(corner, 1), k) = a*corner(:, k)
+    end do
+  end subroutine corner_points
 
   !> Derivatives dn (nodes, dim) [1/L] of the shape functions in the coordinates x (dim, nodes)
   !> [L] at a parametric point, the determinant of the Jacobian there, and the shape functions.
@@ -138,12 +153,6 @@ contains
       det_j = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
     end if
   end subroutine jacobian
-
-  pure function cross(a, b) result(c)
-    real(wp), intent(in) :: a(:), b(:)
-    real(wp) :: c(3)
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
 
   !> Rows of the inverse are products of the columns.
   pure function inverse(j, det) result(i)

@@ -4,9 +4,17 @@ module element_curved
   use base_kinds, only: wp, half
   implicit none
   private
-  public :: quadratic_faces, linear_facets
+  public :: midpoints, quadratic_faces, linear_facets
 
 contains
+
+  !> Middles (dim, edges) of edges (2, edges) between the corners of place (dim, nodes).
+  pure function midpoints(place, edge) result(middle)
+    real(wp), intent(in) :: place(:, :)
+    integer, intent(in) :: edge(:, :)
+    real(wp) :: middle(size(place, 1), size(edge, 2))
+    middle = half*(place(:, edge(1, :)) + place(:, edge(2, :)))
+  end function midpoints
 
   !> Faces of corners (m, faces) with more nodes: corners, mid nodes of the edges from each
   !> corner to the next, and with four corners the centre. place (3, nodes): parametric

@@ -1,8 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A face of an element in space: a triangle, or a bilinear quadrilateral, which may be warped.
+!> A face of an element: in the plane an edge, in space a triangle, or a bilinear quadrilateral,
+!> which may be warped.
 module element_face
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   use element_base, only: gauss
+  use linalg_dense, only: cross
   implicit none
   private
   public :: face_areas
@@ -10,8 +12,9 @@ module element_face
 contains
 
   !> a (3, nodes) [L2] = int N_i n dA over the face with nodes x (3, 3 or 4) [L], n outward
-  !> where they go round counter-clockwise seen from outside. Of a quadrilateral by 2 x 2
-  !> points, which is exact: the cross product of its tangents is linear in each parameter.
+  !> where they go round counter-clockwise seen from outside; of an edge of the plane, x (2, 2),
+  !> a (2, 2) [L], with the element on its left. Of a quadrilateral by 2 x 2 points, which is
+  !> exact: the cross product of its tangents is linear in each parameter.
   pure subroutine face_areas(x, a)
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(out) :: a(:, :)
@@ -19,6 +22,12 @@ contains
         reshape([-one, -one, one, -one, one, one, -one, one], [2, 4])
     real(wp) :: n(4), tangent(3, 2), normal(3)
     integer :: k, i
+    if (size(x, 1) == 2) then
+      n(:2) = x(:, 2) - x(:, 1)
+      a(:, 1) = half*[n(2), -n(1)]
+      a(:, 2) = a(:, 1)
+      return
+    end if
     if (size(x, 2) == 3) then
       normal = cross(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1))/6.0_wp
       do i = 1, 3
@@ -44,11 +53,5 @@ contains
       end do
     end do
   end subroutine face_areas
-
-  pure function cross(a, b) result(c)
-    real(wp), intent(in) :: a(3), b(3)
-    real(wp) :: c(3)
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-  end function cross
 
 end module element_face

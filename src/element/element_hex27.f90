@@ -5,7 +5,7 @@
 module element_hex27
   use base_kinds, only: wp, zero, one, two, half
   use element_base, only: element_t, jacobian_at
-  use element_curved, only: quadratic_faces, linear_facets
+  use element_curved, only: midpoints, quadratic_faces, linear_facets
   use element_hex8, only: corner, hex_face, cube_points
   implicit none
   private
@@ -37,9 +37,7 @@ contains
     real(wp) :: place(3, 27)
     integer :: k
     place(:, :8) = corner
-    do k = 1, 12
-      place(:, 8 + k) = half*(corner(:, edge(1, k)) + corner(:, edge(2, k)))
-    end do
+    place(:, 9:20) = midpoints(corner, edge)
     do k = 1, 6
       place(:, 20 + k) = 0.25_wp*sum(corner(:, hex_face(:, k)), dim=2)
     end do

@@ -2,7 +2,7 @@
 !> The trilinear hexahedron with 2 x 2 x 2 Gauss points.
 module element_hex8
   use base_kinds, only: wp, zero, one
-  use element_base, only: element_t, jacobian_at, gauss
+  use element_base, only: element_t, jacobian_at, corner_points, gauss
   implicit none
   private
 
@@ -21,7 +21,7 @@ module element_hex8
   integer, parameter, public :: hex_face(4, 6) = reshape([1, 5, 8, 4, 2, 3, 7, 6, 1, 2, 6, 5, &
       4, 8, 7, 3, 1, 4, 3, 2, 5, 6, 7, 8], [4, 6])
 
-  public :: new_hex8, trilinear, corner_points, cube_points
+  public :: new_hex8, trilinear, cube_points
 
 contains
 
@@ -56,30 +56,17 @@ contains
     class(hex8_t), intent(in) :: this
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
-    call corner_points([gauss, gauss, gauss], points, xi, w)
+    call corner_points(corner, [gauss, gauss, gauss], points, xi, w)
   end subroutine hex8_rule
 
-  !> Eight points (+-a1, +-a2, +-a3), weight one: a = 1 is the lumped mass.
+  !> Eight points (+-a1, +-a2, +-a3).
   pure subroutine hex8_mass_rule(this, a, points, xi, w)
     class(hex8_t), intent(in) :: this
     real(wp), intent(in) :: a(:)
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
-    call corner_points(a, points, xi, w)
+    call corner_points(corner, a, points, xi, w)
   end subroutine hex8_mass_rule
-
-  !> The corners, scaled.
-  pure subroutine corner_points(a, points, xi, w)
-    real(wp), intent(in) :: a(:)
-    integer, intent(out) :: points
-    real(wp), intent(out) :: xi(:, :), w(:)
-    integer :: k
-    points = 8
-    w(1:8) = one
-    do k = 1, 8
-      xi(1:3, k) = a*corner(:, k)
-    end do
-  end subroutine corner_points
 
   !> Three Gauss points in each direction.
   pure subroutine cube_points(points, xi, w)
@@ -114,12 +101,13 @@ contains
     end do
   end function hex8_directions
 
-  !> At the corners: where all are positive none inside was negative (doc/theory.md 1).
+  !> At the corners and at the points of the rule: a strongly distorted one may be positive at
+  !> all corners and negative at a point.
   pure function hex8_smallest_jacobian(this, x) result(j)
     class(hex8_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp) :: j
-    j = jacobian_at(this, x, corner)
+    j = jacobian_at(this, x, reshape([gauss*corner, corner], [3, 16]))
   end function hex8_smallest_jacobian
 
 end module element_hex8

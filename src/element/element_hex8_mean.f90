@@ -3,7 +3,7 @@
 module element_hex8_mean
   use base_kinds, only: wp, zero
   use element_base, only: strain_matrix
-  use element_hex8, only: hex8_t, hex_face
+  use element_hex8, only: hex8_t, new_hex8
   implicit none
   private
 
@@ -19,8 +19,8 @@ contains
   !> Its data.
   pure function new_hex8_mean() result(element)
     type(hex8_mean_t) :: element
-    element = hex8_mean_t(name='HEX8MEAN', dim=3, nodes=8, vtk=12, &
-        takes_dispersion=.true., face=hex_face)
+    element%hex8_t = new_hex8()
+    element%name = 'HEX8MEAN'
   end function new_hex8_mean
 
   !> B with the dilatation of each point replaced by its mean over the volume (Hughes 1980):

@@ -4,7 +4,7 @@
 module element_hex8_modes
   use base_kinds, only: wp, zero, half, two
   use element_base, only: strain_matrix
-  use element_hex8, only: hex8_t, hex_face
+  use element_hex8, only: hex8_t, new_hex8
   implicit none
   private
 
@@ -20,8 +20,8 @@ contains
   !> Its data.
   pure function new_hex8_modes() result(element)
     type(hex8_modes_t) :: element
-    element = hex8_modes_t(name='HEX8MODE', dim=3, nodes=8, vtk=12, &
-        takes_dispersion=.true., face=hex_face)
+    element%hex8_t = new_hex8()
+    element%name = 'HEX8MODE'
   end function new_hex8_modes
 
   !> K - L' H^-1 L: the nine amplitudes of the modes 1 - xi_i^2 condensed, L and H the products

@@ -2,8 +2,8 @@
 !> The pyramid: a hexahedron whose upper face is one node. Base 1-2-3-4, apex 5.
 module element_pyramid5
   use base_kinds, only: wp
-  use element_base, only: element_t, jacobian_at, gauss
-  use element_hex8, only: corner, trilinear, corner_points, cube_points
+  use element_base, only: element_t, jacobian_at, corner_points, gauss
+  use element_hex8, only: corner, trilinear, cube_points
   implicit none
   private
 
@@ -41,7 +41,7 @@ contains
     class(pyramid5_t), intent(in) :: this
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
-    call corner_points([gauss, gauss, gauss], points, xi, w)
+    call corner_points(corner, [gauss, gauss, gauss], points, xi, w)
   end subroutine pyramid5_rule
 
   !> Three Gauss points a direction: the Jacobian is quadratic in the third, its product with

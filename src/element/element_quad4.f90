@@ -2,7 +2,7 @@
 !> The bilinear quadrilateral with 2 x 2 Gauss points.
 module element_quad4
   use base_kinds, only: wp, one, half
-  use element_base, only: element_t, gauss
+  use element_base, only: element_t, corner_points, gauss
   implicit none
   private
 
@@ -45,18 +45,13 @@ contains
     call this%mass_rule([gauss, gauss], points, xi, w)
   end subroutine quad4_rule
 
-  !> Four points (+-a1, +-a2), weight one: a = 1 is the lumped mass.
+  !> Four points (+-a1, +-a2).
   pure subroutine quad4_mass_rule(this, a, points, xi, w)
     class(quad4_t), intent(in) :: this
     real(wp), intent(in) :: a(:)
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
-    integer :: k
-    points = 4
-    w(1:4) = one
-    do k = 1, 4
-      xi(1:2, k) = a*corner(:, k)
-    end do
+    call corner_points(corner, a, points, xi, w)
   end subroutine quad4_mass_rule
 
   !> Between the midpoints of opposite edges.

@@ -3,7 +3,7 @@
 module element_tet10
   use base_kinds, only: wp, zero, one, half
   use element_base, only: element_t, jacobian_at, gauss
-  use element_curved, only: quadratic_faces, linear_facets
+  use element_curved, only: midpoints, quadratic_faces, linear_facets
   use element_tet4, only: tet_face, tet4_t, four_points
   implicit none
   private
@@ -40,9 +40,7 @@ contains
     do k = 1, 3
       place(k, k + 1) = one
     end do
-    do k = 1, 6
-      place(:, 4 + k) = half*(place(:, edge(1, k)) + place(:, edge(2, k)))
-    end do
+    place(:, 5:10) = midpoints(place(:, 1:4), edge)
   end function tet10_places
 
   !> In volume coordinates l: l (2 l - 1) at corners, 4 l_a l_b on the edge ab.
@@ -90,14 +88,13 @@ contains
   !> Are the mid nodes in the middle, but for what rounding of coordinates in a deck leaves?
   pure logical function is_straight(x)
     real(wp), intent(in) :: x(:, :)
-    real(wp) :: off(3)
+    real(wp) :: off(3, 6)
     integer :: k
+    off = abs(x(:, 5:10) - midpoints(x(:, 1:4), edge))
     is_straight = .true.
     do k = 1, 6
-      associate (a => x(:, edge(1, k)), b => x(:, edge(2, k)))
-        off = x(:, 4 + k) - half*(a + b)
-        is_straight = is_straight .and. maxval(abs(off)) <= 1.0e-6_wp*maxval(abs(b - a))
-      end associate
+      is_straight = is_straight .and. maxval(off(:, k)) &
+          <= 1.0e-6_wp*maxval(abs(x(:, edge(2, k)) - x(:, edge(1, k))))
     end do
   end function is_straight
 

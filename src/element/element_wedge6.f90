@@ -3,8 +3,8 @@
 !> 5-6, triangles 1-2-5 and 4-3-6.
 module element_wedge6
   use base_kinds, only: wp
-  use element_base, only: element_t, jacobian_at, gauss
-  use element_hex8, only: corner, trilinear, corner_points
+  use element_base, only: element_t, jacobian_at, corner_points, gauss
+  use element_hex8, only: corner, trilinear
   implicit none
   private
 
@@ -43,7 +43,7 @@ contains
     class(wedge6_t), intent(in) :: this
     integer, intent(out) :: points
     real(wp), intent(out) :: xi(:, :), w(:)
-    call corner_points([gauss, gauss, gauss], points, xi, w)
+    call corner_points(corner, [gauss, gauss, gauss], points, xi, w)
   end subroutine wedge6_rule
 
   !> At the points and the corners of the base; at a repeated corner it is zero in any shape.

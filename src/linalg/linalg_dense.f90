@@ -19,7 +19,7 @@ module linalg_dense
   end type dense_spd_t
 
   public :: dense_factor, dense_solve, dense_inverse, solve_general, solve_banded, &
-      solve_small, largest_eigenvalue_2, largest_eigenvalue, largest_by_lapack
+      solve_small, cross, largest_eigenvalue_2, largest_eigenvalue, largest_by_lapack
 
   interface
     subroutine dpotrf(uplo, n, a, lda, info)
@@ -236,6 +236,7 @@ contains
     end select
   end subroutine solve_small
 
+  !> a x b.
   pure function cross(a, b) result(c)
     real(wp), intent(in) :: a(3), b(3)
     real(wp) :: c(3)

@@ -240,7 +240,7 @@ module model_data
     type(controls_t) :: controls
   end type model_t
 
-  public :: count_steps, curve_value, curve_slope, segment_owner, node_name
+  public :: count_steps, curve_value, curve_slope, node_name
 
 contains
 
@@ -308,42 +308,5 @@ contains
       if (model%wall(k)%radius > 0.0_wp) name = 'wall '//to_text(model%wall(k)%id)
     end do
   end function node_name
-
-  !> For each segment (two nodes) the one element that has it as an edge, and on which side: >
-  !> 0 when the element runs from the first to the second node, < 0 when the other way; 0 when
-  !> no element or more than one has this edge.
-  pure function segment_owner(model, segment) result(owner)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: segment(:, :)
-    integer :: owner(size(segment, 2))
-    integer, allocatable :: first(:), next(:)
-    integer, allocatable :: hits(:)
-    integer :: e, f, m, s, a, b, node(2)
-    allocate (first(model%nodes), next(size(segment, 2)), hits(size(segment, 2)))
-    first = 0
-    do s = 1, size(segment, 2)
-      a = minval(segment(:, s))
-      next(s) = first(a)
-      first(a) = s
-    end do
-    owner = 0
-    hits = 0
-    do e = 1, model%mesh%n
-      do f = 1, model%mesh%faces_of(e)
-        call model%mesh%get_face(f, e, node, m)
-        a = node(1)
-        b = node(2)
-        s = first(min(a, b))
-        do while (s > 0)
-          if (maxval(segment(:, s)) == max(a, b)) then
-            hits(s) = hits(s) + 1
-            owner(s) = merge(e, -e, segment(1, s) == a)
-          end if
-          s = next(s)
-        end do
-      end do
-    end do
-    where (hits /= 1) owner = 0
-  end function segment_owner
 
 end module model_data

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Faces of elements in space: those that no second element has are the surface of the bodies.
-!> Faces are found again by their smallest node, under which they are chained.
+!> Faces of elements, in the plane edges: those that no second element has are the surface of
+!> the bodies. Faces are found again by their smallest node, under which they are chained.
 module model_faces
   use element_base, only: most_face_nodes
   use model_mesh, only: mesh_t
@@ -16,7 +16,7 @@ module model_faces
     integer, allocatable :: next(:)    !< (n) the next one; 0 = none
   end type faces_t
 
-  public :: find_faces, face_at, find_hanging, orient_segments
+  public :: find_faces, face_at, find_hanging, exterior_faces, orient_segments
 
 contains
 
@@ -112,9 +112,29 @@ contains
     element = 0
   end subroutine find_hanging
 
-  !> Segments (4, n), of triangles the last node 0, in the order of the faces that they are,
-  !> seen from outside counter-clockwise; owner: their elements, 0 where a segment is no
-  !> exterior face.
+  !> The faces that one element has alone, in the order of the elements: node (corners, n),
+  !> outward, the last 0 where a face has fewer, and their elements.
+  subroutine exterior_faces(mesh, nodes, corners, node, owner)
+    type(mesh_t), intent(in) :: mesh
+    integer, intent(in) :: nodes, corners
+    integer, allocatable, intent(out) :: node(:, :), owner(:)
+    type(faces_t) :: faces
+    integer :: k, m, n
+    call find_faces(mesh, nodes, faces)
+    n = count(faces%count(:faces%n) == 1)
+    allocate (node(corners, n), owner(n))
+    node = 0
+    n = 0
+    do k = 1, faces%n
+      if (faces%count(k) > 1) cycle
+      n = n + 1
+      owner(n) = faces%owner(k)
+      call mesh%get_face(faces%local(k), faces%owner(k), node(:, n), m)
+    end do
+  end subroutine exterior_faces
+
+  !> Segments (corners, n), the last node 0 where one has fewer, in the order of the faces that
+  !> they are, outward; owner: their elements, 0 where a segment is no exterior face.
   subroutine orient_segments(mesh, nodes, segment, owner)
     type(mesh_t), intent(in) :: mesh
     integer, intent(in) :: nodes

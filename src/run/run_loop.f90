@@ -281,12 +281,7 @@ contains
     integer, intent(in) :: stage
     type(status_t), intent(inout) :: status
     real(wp) :: total, largest
-    if (run%system%dim == 2) then
-      call sum_squares(run%system%n, run%x, total, largest)
-    else
-      total = sum(run%x**2)
-      largest = maxval(sum(run%x**2, dim=1))
-    end if
+    call sum_squares(run%system%dim, run%system%n, run%x, total, largest)
     if (run%scheme%stage(stage)%moves) run%largest_motion = sqrt(largest)
     if (total <= huge(one)) return
     run%broken = .true.
@@ -295,10 +290,10 @@ contains
         hint='check units, densities and the time step')
   end subroutine check_finite
 
-  !> Sum and maximum of the squared lengths, in the plane; a NaN stays in the sum.
-  pure subroutine sum_squares(n, x, total, largest)
-    integer, intent(in) :: n
-    real(wp), intent(in) :: x(2, n)
+  !> Sum and maximum of the squared lengths; a NaN stays in the sum.
+  pure subroutine sum_squares(dim, n, x, total, largest)
+    integer, intent(in) :: dim, n
+    real(wp), intent(in) :: x(dim, n)
     real(wp), intent(out) :: total, largest
     real(wp) :: a
     integer :: i
@@ -306,6 +301,7 @@ contains
     largest = zero
     do i = 1, n
       a = x(1, i)**2 + x(2, i)**2
+      if (dim == 3) a = a + x(3, i)**2
       total = total + a
       largest = merge(a, largest, a > largest)
     end do

@@ -4,8 +4,8 @@
 module scene_clauses
   use base_kinds, only: wp
   use deck_data, only: deck_t
-  use model_data, only: model_t, segment_owner
-  use model_faces, only: faces_t, find_faces
+  use model_data, only: model_t
+  use model_faces, only: exterior_faces
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -107,7 +107,7 @@ contains
       allocate (node(2*(model%dim - 1), 0))
       return
     end if
-    if (.not. allocated(edges%owner)) call find_exposed_edges(model, edges)
+    if (.not. allocated(edges%owner)) call find_exterior(model, edges)
     allocate (in_set(size(edges%owner)))
     in_set = .false.
     do r = head + 1, deck%block(deck%record(head)%block)%last
@@ -267,59 +267,18 @@ contains
     end do
   end function in_boxes
 
-  subroutine find_exposed_edges(model, edges)
+  !> All of them, chained by the node at which they begin.
+  subroutine find_exterior(model, edges)
     type(model_t), intent(in) :: model
     type(edges_t), intent(out) :: edges
-    integer, allocatable :: edge(:, :), owner(:)
-    integer :: e, f, m, n
-    if (model%dim == 3) then
-      call find_exterior_faces(model, edges)
-      call chain_edges(model, edges)
-      return
-    end if
-    allocate (edge(2, sum([(model%mesh%faces_of(e), e=1, model%mesh%n)])))
-    n = 0
-    do e = 1, model%mesh%n
-      do f = 1, model%mesh%faces_of(e)
-        n = n + 1
-        call model%mesh%get_face(f, e, edge(:, n), m)
-      end do
-    end do
-    owner = segment_owner(model, edge)
-    edges%node = reshape(pack(edge, spread(owner /= 0, 1, 2)), [2, count(owner /= 0)])
-    edges%owner = abs(pack(owner, owner /= 0))
-    call chain_edges(model, edges)
-  end subroutine find_exposed_edges
-
-  subroutine find_exterior_faces(model, edges)
-    type(model_t), intent(in) :: model
-    type(edges_t), intent(inout) :: edges
-    type(faces_t) :: faces
-    integer :: k, n, m
-    call find_faces(model%mesh, model%nodes, faces)
-    n = count(faces%count(:faces%n) == 1)
-    allocate (edges%node(4, n), edges%owner(n))
-    edges%node = 0
-    n = 0
-    do k = 1, faces%n
-      if (faces%count(k) > 1) cycle
-      n = n + 1
-      edges%owner(n) = faces%owner(k)
-      call model%mesh%get_face(faces%local(k), faces%owner(k), edges%node(:, n), m)
-    end do
-  end subroutine find_exterior_faces
-
-  !> Edges by the node at which they begin.
-  subroutine chain_edges(model, edges)
-    type(model_t), intent(in) :: model
-    type(edges_t), intent(inout) :: edges
     integer :: e
+    call exterior_faces(model%mesh, model%nodes, 2*(model%dim - 1), edges%node, edges%owner)
     allocate (edges%first(model%nodes), edges%next(size(edges%owner)))
     edges%first = 0
     do e = 1, size(edges%owner)
       edges%next(e) = edges%first(edges%node(1, e))
       edges%first(edges%node(1, e)) = e
     end do
-  end subroutine chain_edges
+  end subroutine find_exterior
 
 end module scene_clauses

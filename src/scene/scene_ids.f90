@@ -22,7 +22,7 @@ module scene_ids
     type(id_map_t) :: node_set, part_set, element_set, segment_set, curve, contact, box
   end type maps_t
 
-  public :: make_id_map, records_of, find_or_complain
+  public :: make_id_map, records_of, find_or_complain, part_of_element
 
 contains
 
@@ -79,17 +79,27 @@ contains
     end if
   end function id_map_find
 
-  !> Row of an id that field f of a record gives; a problem and 0 if there is none.
-  integer function find_or_complain(deck, map, record, field, id, what)
+  !> Row of an id that a field of a record gives; a problem and 0 if there is none.
+  integer function find_or_complain(deck, map, record, field, id, what, hint)
     type(deck_t), intent(inout) :: deck
     type(id_map_t), intent(in) :: map
     integer, intent(in) :: record
     character(*), intent(in) :: field
     integer, intent(in) :: id
     character(*), intent(in) :: what
+    character(*), intent(in), optional :: hint
     find_or_complain = map%find(id)
     if (find_or_complain == 0) &
-        call deck%complain(record, field, what//' '//to_text(id)//' is not defined')
+        call deck%complain(record, field, what//' '//to_text(id)//' is not defined', hint)
   end function find_or_complain
+
+  !> Part that the card of an element names; a problem and 0 if there is none.
+  integer function part_of_element(deck, maps, record)
+    type(deck_t), intent(inout) :: deck
+    type(maps_t), intent(in) :: maps
+    integer, intent(in) :: record
+    part_of_element = find_or_complain(deck, maps%part, record, 'PID', &
+        nint(deck%number_at(record, 2)), 'part', 'add a *PART with this number')
+  end function part_of_element
 
 end module scene_ids

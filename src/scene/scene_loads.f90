@@ -8,8 +8,9 @@ module scene_loads
   use deck_problems, only: add_note, add_warning
   use element_face, only: face_areas
   use model_data, only: model_t, curve_t, load_t
+  use model_faces, only: orient_segments
   use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
-  use scene_sets, only: read_segment, find_owners, corners, segment_text
+  use scene_sets, only: read_segment, corners, segment_text
   implicit none
   private
   public :: read_curves, read_loads, nodes_of, curve_of
@@ -207,59 +208,39 @@ contains
     if (n == 0) return
     segment = reshape(node(:n), [corners(model), n/corners(model)])
     allocate (owner(size(segment, 2)))
-    call find_owners(model, segment, owner)
+    call orient_segments(model%mesh, model%nodes, segment, owner)
     n = 0
     do k = before + 1, size(record)
       m = size(model%load(k)%node)/corners(model)
       if (any(owner(n + 1:n + m) == 0)) then
         call deck%complain(record(k), 'N1', segment_text(model))
-      else if (model%dim == 2) then
-        call find_pressure(model, owner(n + 1:n + m), k)
       else
-        call press_faces(model, segment(:, n + 1:n + m), model%load(k))
+        call press(model, segment(:, n + 1:n + m), owner(n + 1:n + m), model%load(k))
       end if
       n = n + m
     end do
   end subroutine find_pressures
 
-  !> A pressure on element edges as forces on their nodes: half of p times length times
-  !> thickness on each, against the outward normal of the reference geometry (exact for linear
-  !> edges). owner: the elements of its segments, as SEGMENT_OWNER has them.
-  subroutine find_pressure(model, owner, row)
-    type(model_t), intent(inout) :: model
-    integer, intent(in) :: owner(:)
-    integer, intent(in) :: row
-    real(wp) :: d(2)
-    integer :: s
-    associate (load => model%load(row))
-      allocate (load%force(2, size(load%node)))
-      do s = 1, size(load%node)/2
-        d = model%x(:, load%node(2*s)) - model%x(:, load%node(2*s - 1))
-        if (owner(s) < 0) d = -d
-        d = half*model%part(model%mesh%part(abs(owner(s))))%thickness*[-d(2), d(1)]
-        load%force(:, 2*s - 1) = d
-        load%force(:, 2*s) = d
-      end do
-    end associate
-  end subroutine find_pressure
-
-  !> A pressure on element faces as forces on their nodes: int N n dA of the reference
-  !> geometry, against the outward normal.
-  subroutine press_faces(model, segment, load)
+  !> A pressure on faces of elements as forces on their nodes: int N n dA of the reference
+  !> geometry, against the outward normal; in the plane times the thickness. owner: the elements
+  !> of the segments.
+  subroutine press(model, segment, owner, load)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: segment(:, :)
+    integer, intent(in) :: segment(:, :), owner(:)
     type(load_t), intent(inout) :: load
     integer :: s, n, m
     load%node = pack(segment, segment > 0)
-    allocate (load%force(3, size(load%node)))
+    allocate (load%force(model%dim, size(load%node)))
     n = 0
     do s = 1, size(segment, 2)
       m = count(segment(:, s) > 0)
-      call face_areas(model%x(:, segment(:m, s)), load%force(:, n + 1:n + m))
+      associate (force => load%force(:, n + 1:n + m))
+        call face_areas(model%x(:, segment(:m, s)), force)
+        force = -model%part(model%mesh%part(owner(s)))%thickness*force
+      end associate
       n = n + m
     end do
-    load%force = -load%force
-  end subroutine press_faces
+  end subroutine press
 
   subroutine read_gravity(deck, model, maps)
     type(deck_t), intent(inout) :: deck
@@ -274,8 +255,8 @@ contains
       record = [record, other]
       direction = [direction, spread(d, 1, size(other))]
       if (d <= model%dim .or. size(other) == 0) cycle
-      call deck%complain(other(1), '', '*LOAD_BODY_Z is not available in this version', &
-          'models are plane')
+      call deck%complain(other(1), '', 'expected *LOAD_BODY_X or *LOAD_BODY_Y: the model '// &
+          'is plane')
       return
     end do
     allocate (model%gravity(size(record)))

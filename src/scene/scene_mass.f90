@@ -53,22 +53,23 @@ contains
     end do
   end subroutine refuse_direction
 
-  !> DISPERSION in space: hexahedra of 8 nodes alone; tuned to shear waves: in space alone.
+  !> DISPERSION: quadrilaterals and hexahedra of 8 nodes alone; tuned to shear waves: in space
+  !> alone.
   subroutine check_mass(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
-    integer :: e, k
+    integer :: e
     if (model%controls%mass /= 'DISPERSION') return
-    if (allocated(model%controls%travel) .and. &
-        any([(model%mesh%kind(k)%item%dim == 2, k=1, size(model%mesh%kind))])) &
-        call deck%complain(deck%next('BIPACT_MASS', 1, 0), 'WAVE', &
+    if (allocated(model%controls%travel) .and. model%dim == 2) call deck%complain( &
+        deck%next('BIPACT_MASS', 1, 0), 'WAVE', &
         'expected P: shear waves are available in space only')
     do e = 1, model%mesh%n
       associate (element => model%mesh%kind(model%mesh%type(e))%item)
-        if (element%dim == 2 .or. element%takes_dispersion) cycle
+        if (element%takes_dispersion) cycle
         call deck%complain(model%mesh%record(e), '', 'element '// &
-            to_text(model%mesh%id(e))//' is of the type '//trim(element%name)// &
-            ': in space the mass DISPERSION is defined for hexahedra of 8 nodes', &
+            to_text(model%mesh%id(e))//' is no '//trim(merge('quadrilateral          ', &
+            'hexahedron of 8 nodes  ', element%dim == 2))// &
+            ': the mass DISPERSION is defined for those alone', &
             'choose another TYPE on *BIPACT_MASS')
         if (full(deck%problems)) return
       end associate

@@ -7,7 +7,7 @@ module scene_mesh
   use deck_problems, only: add_note, full, add_problem
   use model_data, only: model_t
   use scene_faces, only: check_faces, warn_of_locking
-  use scene_ids, only: maps_t, make_id_map, records_of
+  use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain, part_of_element
   use scene_solids, only: read_solids
   implicit none
   private
@@ -73,7 +73,8 @@ contains
     call make_id_map(deck, 'element', 'EID', model%mesh%id, model%mesh%record, &
         maps%element)
     if (model%mesh%n == 0) &
-        call add_problem(deck%problems, deck%file(1)%path//': the deck has no *ELEMENT_SHELL')
+        call add_problem(deck%problems, deck%file(1)%path// &
+        ': the deck has no *ELEMENT_SHELL and no *ELEMENT_SOLID')
     call read_beams(deck, maps)
   end subroutine read_elements
 
@@ -88,10 +89,7 @@ contains
     call model%mesh%start(n, 4*n)
     do k = 1, n
       associate (r => record(k))
-        part = maps%part%find(nint(deck%number_at(r, 2)))
-        if (part == 0) &
-            call deck%complain(r, 'PID', 'part '//to_text(nint(deck%number_at(r, 2)))// &
-            ' is not defined', 'add a *PART with this number')
+        part = part_of_element(deck, maps, r)
         call read_corners(deck, r, maps, corner)
         if (corner(3) == corner(4)) then
           call model%mesh%add('TRI3', nint(deck%number_at(r, 1)), part, r, corner(:3))
@@ -114,9 +112,7 @@ contains
         corner(4) = corner(3)
         cycle
       end if
-      corner(m) = maps%node%find(id)
-      if (corner(m) == 0) call deck%complain(record, 'N'//achar(48 + m), 'node '// &
-          to_text(id)//' is not defined')
+      corner(m) = find_or_complain(deck, maps%node, record, 'N'//achar(48 + m), id, 'node')
     end do
   end subroutine read_corners
 
@@ -179,15 +175,6 @@ contains
     end if
     do e = 1, model%mesh%n
       associate (element => model%mesh%kind(model%mesh%type(e))%item)
-        if (element%name == 'TRI3' .and. model%controls%mass == 'DISPERSION') &
-            call deck%complain(model%mesh%record(e), &
-            '', 'element '//to_text(model%mesh%id(e))// &
-            ' is a triangle: the mass DISPERSION is defined for quadrilaterals', &
-            'choose another TYPE on *BIPACT_MASS')
-        if (element%dim == 3 .and. element%nodes < 8 .and. model%controls%mass == &
-            'DISPERSION') call deck%complain(model%mesh%record(e), '', 'element '// &
-            to_text(model%mesh%id(e))//' is no hexahedron: the mass DISPERSION is defined '// &
-            'for those', 'choose another TYPE on *BIPACT_MASS')
         jacobian = element%smallest_jacobian(model%x(:, model%mesh%nodes_of(e)))
         if (jacobian > zero) cycle
         call deck%complain(model%mesh%record(e), '', 'element '// &

@@ -46,8 +46,10 @@ contains
       call read_parts(deck, model, maps)
       call read_elements(deck, model, maps)
     end if
-    if (deck%problems%count == 0) call check_mesh(deck, model)
-    if (deck%problems%count == 0) call check_mass(deck, model)
+    if (deck%problems%count == 0) then
+      call check_mesh(deck, model)
+      call check_mass(deck, model)
+    end if
     if (deck%problems%count == 0) then
       call read_sets(deck, model, maps)
       call read_curves(deck, model, maps)

@@ -5,13 +5,13 @@ module scene_sets
   use base_sort, only: first_not_below
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use model_data, only: model_t, set_t, segment_set_t, segment_owner
+  use model_data, only: model_t, set_t, segment_set_t
   use model_faces, only: orient_segments
   use scene_clauses, only: box_t, edges_t, read_boxes, read_clauses, read_segment_clauses
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
-  public :: read_sets, read_segment, find_owners, corners, segment_text
+  public :: read_sets, read_segment, corners, segment_text
 
 contains
 
@@ -169,20 +169,6 @@ contains
     corners = 2*(model%dim - 1)
   end function corners
 
-  !> The elements of segments (corners, n), 0 where one is no exterior edge or face; in the
-  !> plane with the sign of SEGMENT_OWNER, in space the segments are put as their elements have
-  !> them.
-  subroutine find_owners(model, segment, owner)
-    type(model_t), intent(in) :: model
-    integer, intent(inout) :: segment(:, :)
-    integer, intent(out) :: owner(:)
-    if (model%dim == 3) then
-      call orient_segments(model%mesh, model%nodes, segment, owner)
-    else
-      owner = segment_owner(model, segment)
-    end if
-  end subroutine find_owners
-
   !> What a segment is to be.
   pure function segment_text(model) result(text)
     type(model_t), intent(in) :: model
@@ -206,7 +192,7 @@ contains
     if (n == 0) return
     segment = reshape(node(:n), [corners(model), n/corners(model)])
     allocate (owner(size(segment, 2)))
-    call find_owners(model, segment, owner)
+    call orient_segments(model%mesh, model%nodes, segment, owner)
     n = 0
     do k = 1, size(model%segment_set)
       do r = 1, size(model%segment_set(k)%node, 2)

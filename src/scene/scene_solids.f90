@@ -7,7 +7,7 @@ module scene_solids
   use element_base, only: element_t
   use element_registry, only: make_element
   use model_data, only: model_t
-  use scene_ids, only: maps_t, records_of
+  use scene_ids, only: maps_t, records_of, find_or_complain, part_of_element
   implicit none
   private
   public :: form_of, read_solids
@@ -68,10 +68,7 @@ contains
     call model%mesh%start(size(record), 8*size(record))
     do k = 1, size(record)
       associate (r => record(k))
-        part = maps%part%find(nint(deck%number_at(r, 2)))
-        if (part == 0) &
-            call deck%complain(r, 'PID', 'part '//to_text(nint(deck%number_at(r, 2)))// &
-            ' is not defined', 'add a *PART with this number')
+        part = part_of_element(deck, maps, r)
         call read_nodes(deck, r, maps, corner, name, nodes)
         if (part > 0) call take_form(deck, model, r, part, name)
         call model%mesh%add(trim(name), nint(deck%number_at(r, 1)), part, r, corner(:nodes))
@@ -114,9 +111,7 @@ contains
       return
     end if
     do m = 1, nodes
-      corner(m) = maps%node%find(id(m))
-      if (corner(m) == 0) call deck%complain(card, 'N'//achar(48 + m), 'node '// &
-          to_text(id(m))//' is not defined')
+      corner(m) = find_or_complain(deck, maps%node, card, 'N'//achar(48 + m), id(m), 'node')
     end do
   end subroutine read_nodes
 

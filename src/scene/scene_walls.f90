@@ -91,19 +91,26 @@ contains
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
     type(wall_t), intent(inout) :: wall
-    real(wp) :: length
     if (.not. deck%in_space .and. abs(deck%real(record, 'ZH') - wall%point(3)) > zero) &
         call deck%complain(record, 'ZH', 'expected the value of ZT: the model is plane')
     wall%normal = [deck%real(record, 'XH'), deck%real(record, 'YH'), &
         deck%real(record, 'ZH')] - wall%point
-    length = norm2(wall%normal)
-    if (.not. length > zero) then
-      call deck%complain(record, 'XH', 'expected a point H apart from T: the normal of the '// &
-          'wall points from T to H')
-      return
-    end if
-    wall%normal = wall%normal/length
+    call make_unit(deck, record, 'XH', 'expected a point H apart from T: the normal of the '// &
+        'wall points from T to H', wall%normal)
   end subroutine read_plane
+
+  !> A direction, of length 1; a problem at this field where it is zero.
+  subroutine make_unit(deck, record, field, fault, direction)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    character(*), intent(in) :: field, fault
+    real(wp), intent(inout) :: direction(:)
+    if (any(abs(direction) > zero)) then
+      direction = direction/norm2(direction)
+    else
+      call deck%complain(record, field, fault)
+    end if
+  end subroutine make_unit
 
   !> The axis of a cylinder, along z.
   subroutine read_axis(deck, record, wall)
@@ -125,20 +132,14 @@ contains
     type(wall_t), intent(inout) :: wall
     !> The digits of a field of 10 columns.
     real(wp), parameter :: upright = 1.0e-6_wp
-    real(wp) :: length
     wall%shape = 'FLAT'
     wall%length = deck%real(third, 'LENL')
     if (.not. wall%length > zero) return
     if (abs(deck%real(third, 'ZHEV') - deck%real(second, 'ZT')) > zero) call deck%complain( &
         third, 'ZHEV', 'expected the value of ZT: the length of the wall lies in the plane')
     wall%along = [deck%real(third, 'XHEV'), deck%real(third, 'YHEV')] - wall%point(:2)
-    length = norm2(wall%along)
-    if (.not. length > zero) then
-      call deck%complain(third, 'XHEV', 'expected a point apart from T: the wall goes from '// &
-          'T toward it')
-      return
-    end if
-    wall%along = wall%along/length
+    call make_unit(deck, third, 'XHEV', 'expected a point apart from T: the wall goes from '// &
+        'T toward it', wall%along)
     if (abs(dot_product(wall%along, wall%normal(:2))) > upright) then
       call deck%complain(third, 'XHEV', 'expected a point of the wall: its line from T is '// &
           'at right angles to the normal TH')
@@ -168,16 +169,11 @@ contains
     type(maps_t), intent(in) :: maps
     integer, intent(in) :: record
     type(wall_t), intent(inout) :: wall
-    real(wp) :: length
     wall%curve = curve_of(deck, model, maps, record)
     wall%motion = merge(motion_displacement, motion_velocity, deck%integer(record, 'OPT') == 1)
     wall%direction = [deck%real(record, 'VX'), deck%real(record, 'VY')]
-    length = norm2(wall%direction)
-    if (.not. length > zero) then
-      call deck%complain(record, 'VX', 'expected a direction: VX, VY are both zero')
-      return
-    end if
-    wall%direction = wall%direction/length
+    call make_unit(deck, record, 'VX', 'expected a direction: VX, VY are both zero', &
+        wall%direction)
     if (wall%curve == 0 .or. wall%motion /= motion_displacement) return
     if (abs(curve_value(model%curve(wall%curve), zero)) > zero) call deck%complain(record, &
         'LCID', 'expected a curve that is 0 at t = 0: there the wall is where its card says')

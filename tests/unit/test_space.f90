@@ -5,7 +5,7 @@ program test_space
   use base_kinds, only: wp, zero, one, half
   use check, only: test_start, test_end, check_true, check_close, check_equal, seed_random
   use eigenvalues, only: all_eigenvalues
-  use element_base, only: element_t, gauss, most_points
+  use element_base, only: element_t, jacobian_at, gauss, most_points
   use element_hex27, only: hex27_places
   use element_hex8, only: corner, hex_face
   use element_registry, only: make_element, element_names
@@ -35,6 +35,7 @@ program test_space
   call test_places('HEX27', hex27_places())
   call test_rule()
   call test_lumped()
+  call test_inside()
   call test_stiff_modes('HEX8', 7)
   call test_stiff_modes('HEX8MEAN', 1)
   call test_stiff_modes('HEX8MODE', 4)
@@ -145,6 +146,16 @@ contains
     call random_number(shift)
     x = place(:, :element%nodes, 1) + 0.2_wp*(shift - half)
   end subroutine distorted
+
+  !> Positive at all corners and negative at a point of the rule: no valid element.
+  subroutine test_inside()
+    real(wp), parameter :: x(3, 8) = 0.1_wp*reshape([0, -20, -10, -4, 5, 1, 17, 1, 3, &
+        -7, 10, -19, -5, -21, 11, 14, -10, -5, 8, 9, 20, 2, 20, 10], [3, 8])
+    class(element_t), allocatable :: hexahedron
+    call make_element('HEX8', hexahedron)
+    call check_true(jacobian_at(hexahedron, x, corner) > 0.1_wp, 'positive at the corners')
+    call check_true(hexahedron%smallest_jacobian(x) < -0.1_wp, 'and refused')
+  end subroutine test_inside
 
   !> Six motions cost nothing, all others something.
   subroutine test_spectrum()
