@@ -16,7 +16,8 @@ module contact_area
 contains
 
   !> Work space of the forces on nodes.
-  subroutine make_nodal(pairing)
+  subroutine make_nodal(d, pairing)
+    integer, intent(in) :: d            ! components
     class(pairing_t), intent(inout) :: pairing
     integer :: n, m
     n = size(pairing%side(1)%node)
@@ -26,7 +27,7 @@ contains
       nodal%node = [pairing%side(1)%node, pairing%side(2)%node]
       nodal%first = [0, n]
       allocate (nodal%side(n + m), nodal%area(n + m))
-      allocate (nodal%force(2, n + m), nodal%before(2, n + m), nodal%normal(n + m))
+      allocate (nodal%force(d, n + m), nodal%before(d, n + m), nodal%normal(n + m))
       allocate (nodal%gap(n + m), nodal%slip(n + m), nodal%status(n + m))
       allocate (nodal%is_near(n + m), nodal%around(n + m))
       allocate (nodal%low(max(size(pairing%side(1)%length), size(pairing%side(2)%length))))

@@ -8,9 +8,10 @@ module contact_corner
   use contact_surface, only: turn_between
   implicit none
   private
-  public :: common_directions, is_beside, choose_normal, keep_edge_normal, direction
+  public :: common_directions, is_beside, choose_normal, keep_edge_normal, direction, &
+      instant_of_leaving
 
-  real(wp), parameter :: never = 1.0e9_wp          !< steps
+  real(wp), parameter, public :: never = 1.0e9_wp  !< steps
 
 contains
 

@@ -15,12 +15,12 @@ module contact_grade
   !> Faces that lie on each other are kept apart by multipliers, not by their nodes.
   integer, parameter, public :: finer_none = 4
 
-  real(wp), parameter :: equal_size = 1.0e-6_wp
+  real(wp), parameter, public :: equal_size = 1.0e-6_wp
   !> A face that lies on another: 3 degrees.
-  real(wp), parameter :: cosine_of_flat = cos(3.0_wp*degree)
+  real(wp), parameter, public :: cosine_of_flat = cos(3.0_wp*degree)
   real(wp), parameter :: cosine_of_smooth = cos(smooth_angle)
-  real(wp), parameter :: twin = 0.1_wp             !< edges: a node that meets a node
-  real(wp), parameter :: sharper = 1.0_wp*degree
+  real(wp), parameter, public :: twin = 0.1_wp             !< edges: a node that meets a node
+  real(wp), parameter, public :: sharper = 1.0_wp*degree
   !> What a node between faces that multipliers keep apart may sink, / shorter edge: half of
   !> what is warned of. A chord is that deep in a circle where it turns by 2.3 degrees.
   real(wp), parameter :: share_between = 5.0e-3_wp

@@ -27,11 +27,11 @@ module contact_near
   end type near_t
 
   !> Edges whose normals are this far off the cone of a node are listed too: they may turn.
-  real(wp), parameter :: listing_angle = 60.0_wp*degree
+  real(wp), parameter, public :: listing_angle = 60.0_wp*degree
   !> What an edge may turn between two searches [radians]: half of what is left of it.
   real(wp), parameter, public :: turn_limit = 0.2_wp
 
-  public :: list_near, exchange_near, longest_list
+  public :: list_near, exchange_near, longest_list, start_list, add_node, keep_memory
 
 contains
 

@@ -54,13 +54,13 @@ module contact_places
   end type view_t
 
   real(wp), parameter, public :: deepest = 0.3_wp  !< edges: a deeper node is not before it
-  real(wp), parameter :: narrow = 3.0_wp*degree    !< two faces that lie on each other
+  real(wp), parameter, public :: narrow = 3.0_wp*degree    !< two faces that lie on each other
   real(wp), parameter :: empty = 10.0_wp*degree    !< cones that miss each other by more
   real(wp), parameter, public :: corner = 20.0_wp*degree   !< a sharper one is watched exactly
   !> Edges: a corner that is further beside another does not meet it; nearer they are twins.
-  real(wp), parameter :: beside = 0.1_wp
+  real(wp), parameter, public :: beside = 0.1_wp
   !> Allowances / shorter edge.
-  real(wp), parameter :: share_of_edge = 1.0e-3_wp
+  real(wp), parameter, public :: share_of_edge = 1.0e-3_wp
   real(wp), parameter, public :: share_at_corner = 2.0e-4_wp
 
   public :: find_places, size_sight, is_excluded, clamped

@@ -6,6 +6,7 @@ module contact_registry
   use contact_mortar, only: pairing_mortar_t
   use contact_node, only: pairing_node_t
   use contact_pairing, only: pairing_t
+  use contact_space, only: pairing_space_t
   use contact_wall, only: pairing_wall_t
   implicit none
   private
@@ -20,6 +21,8 @@ contains
     select case (name)
     case ('NODE')
       allocate (pairing_node_t :: pairing)
+    case ('SPACE')
+      allocate (pairing_space_t :: pairing)
     case ('MORTAR')
       allocate (pairing_mortar_t :: pairing)
     case ('WALL')

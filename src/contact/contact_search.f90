@@ -9,6 +9,7 @@ module contact_search
   use contact_condense, only: make_interface
   use contact_monitor, only: check_start, check_whole
   use contact_pairing, only: pairing_t
+  use contact_facets, only: corners_of
   use contact_ramp, only: set_ramp
   use contact_surface, only: surface_t
   use contact_types, only: contact_t
@@ -289,9 +290,20 @@ contains
   pure real(wp) function largest_turn(surface, reference, u)
     type(surface_t), intent(in) :: surface
     real(wp), intent(in), contiguous :: reference(:, :), u(:, :)
-    real(wp) :: d(2)
-    integer :: e
+    real(wp) :: d(size(u, 1))
+    integer :: e, j, m, a, b
     largest_turn = zero
+    do e = 1, surface%facets%n
+      if (.not. surface%facets%is_listed(e)) cycle
+      m = corners_of(surface%facets, e)
+      do j = 1, m
+        a = surface%facets%node(j, e)
+        b = surface%facets%node(1 + mod(j, m), e)
+        d = (u(:, b) - reference(:, surface%index(b))) &
+            - (u(:, a) - reference(:, surface%index(a)))
+        largest_turn = max(largest_turn, norm2(d)/surface%facets%size(e))
+      end do
+    end do
     do e = 1, size(surface%length)
       if (.not. surface%is_listed(e)) cycle
       associate (a => surface%end_node(1, e), b => surface%end_node(2, e))

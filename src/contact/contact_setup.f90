@@ -13,6 +13,8 @@ module contact_setup
   use contact_registry, only: make_pairing
   use contact_ramp, only: make_ramp
   use contact_rows, only: start_rows
+  use contact_skin, only: make_skin
+  use contact_space, only: pairing_space_t
   use contact_surface, only: make_surface
   use contact_types, only: contact_t
   use contact_wall, only: pairing_wall_t
@@ -54,7 +56,11 @@ contains
     contact%d = 1
     if (any(model%contact%mu > zero) .or. any(model%wall%mu > zero)) contact%d = contact%dim
     do p = 1, size(model%contact)
-      call make_pairing(trim(model%contact(p)%pairing), contact%pairing(p)%item)
+      if (model%dim == 3) then
+        call make_pairing('SPACE', contact%pairing(p)%item)
+      else
+        call make_pairing(trim(model%contact(p)%pairing), contact%pairing(p)%item)
+      end if
       call set_card(model, model%contact(p), contact%pairing(p)%item)
     end do
     do p = 1, size(model%wall)
@@ -93,7 +99,7 @@ contains
     pairing%penetration_tolerance = model%controls%penetration_tolerance
     pairing%is_reference = model%controls%frame == 'REF'
     if (.not. needs_nodal(model)) return
-    if (.not. pairing%is_wall .or. model%requests%field%on) call make_nodal(pairing)
+    if (.not. pairing%is_wall .or. model%requests%field%on) call make_nodal(model%dim, pairing)
   end subroutine set_common
 
   subroutine set_card(model, card, pairing)
@@ -123,6 +129,8 @@ contains
       end do
     end if
     select type (pairing)
+    type is (pairing_space_t)
+      call set_space(model, card, pairing)
     class is (pairing_node_t)
       pairing%finer = card%contactor
       pairing%is_self = card%is_self
@@ -139,6 +147,26 @@ contains
       if (card%contactor == 0) pairing%multiplier_side = contactor_side(model, pairing%side)
     end select
   end subroutine set_card
+
+  !> What a contact of bodies in space has beside its surfaces: their nets.
+  subroutine set_space(model, card, pairing)
+    type(model_t), intent(in) :: model
+    type(contact_card_t), intent(in) :: card
+    type(pairing_space_t), intent(inout) :: pairing
+    integer :: s
+    pairing%finer = card%contactor
+    pairing%is_self = card%is_self
+    allocate (pairing%leaves_out(0, 0))
+    if (allocated(card%leaves_out)) then
+      if (any(card%leaves_out(card%parts, card%parts))) pairing%leaves_out = card%leaves_out
+    end if
+    do s = 1, merge(1, 2, card%is_self)
+      call make_skin(model, pairing%side(s)%facets, pairing%skin(s))
+      pairing%side(s)%is_closed = pairing%skin(s)%is_closed
+    end do
+    if (.not. card%is_self) pairing%may_share = &
+        any(pairing%side(1)%index > 0 .and. pairing%side(2)%index > 0)
+  end subroutine set_space
 
   subroutine set_wall(model, wall, pairing)
     type(model_t), intent(in) :: model

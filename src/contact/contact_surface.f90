@@ -5,6 +5,7 @@
 module contact_surface
   use base_kinds, only: wp, zero, one, half
   use contact_facets, only: facets_t, exterior_facets, corners_of
+  use model_bodies, only: find_bodies
   use model_data, only: model_t, side_part_set, side_node_set, side_part, &
       side_segment_set, side_all_nodes, side_parts
   use model_faces, only: exterior_faces
@@ -50,11 +51,11 @@ contains
     type(surface_t), intent(out) :: surface
     integer, intent(in), optional :: parts(:)
     logical, allocatable :: part_in(:), node_in(:)
-    integer, allocatable :: boundary(:, :), owner(:), part(:), edge(:, :)
+    integer, allocatable :: boundary(:, :), owner(:), part(:), edge(:, :), body(:)
     logical, allocatable :: is_listed(:), taken(:)
     integer :: k
     if (model%dim == 3) then
-      call make_space_surface(model, kind, row, surface)
+      call make_space_surface(model, kind, row, surface, parts)
       return
     end if
     allocate (part_in(size(model%part)), node_in(model%nodes))
@@ -94,15 +95,17 @@ contains
     surface%index(surface%node) = [(k, k=1, size(surface%node))]
     call measure_edges(model, surface)
     call follow_boundary(model, boundary, surface)
-    call find_bodies(model, surface)
+    call find_bodies(model%mesh, model%nodes, body)
+    surface%body = body(surface%end_node(1, :))
   end subroutine make_surface
 
-  !> The same in space, of nodes, for walls: those of a set or all, with the facets all of whose
-  !> corners are among them.
-  subroutine make_space_surface(model, kind, row, surface)
+  !> The same in space: the facets of parts or segments with their nodes, or nodes with the facets
+  !> all of whose corners are among them.
+  subroutine make_space_surface(model, kind, row, surface, parts)
     type(model_t), intent(in) :: model
     integer, intent(in) :: kind, row
     type(surface_t), intent(inout) :: surface
+    integer, intent(in), optional :: parts(:)
     logical :: node_in(model%nodes)
     integer :: k
     call exterior_facets(model, surface%facets)
@@ -110,8 +113,18 @@ contains
     if (kind == side_all_nodes) node_in(:model%mesh_nodes) = .true.
     if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.
     associate (f => surface%facets)
+      select case (kind)
+      case (side_all_nodes, side_node_set)
+        do k = 1, f%n
+          f%is_listed(k) = all(node_in(f%node(:corners_of(f, k), k)))
+        end do
+      case (side_segment_set)
+        call list_segments(model, model%segment_set(row)%node, f)
+      case default
+        call list_parts(model, kind, row, f, parts)
+      end select
       do k = 1, f%n
-        f%is_listed(k) = all(node_in(f%node(:corners_of(f, k), k)))
+        if (f%is_listed(k)) node_in(f%node(:corners_of(f, k), k)) = .true.
       end do
       surface%mean_length = sum(f%size, mask=f%is_listed)/max(1, count(f%is_listed))
       surface%shortest = minval(f%size, mask=f%is_listed)
@@ -128,6 +141,42 @@ contains
     surface%turn = zero
     surface%chain_length = zero
   end subroutine make_space_surface
+
+  !> The facets of parts.
+  subroutine list_parts(model, kind, row, facets, parts)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: kind, row
+    type(facets_t), intent(inout) :: facets
+    integer, intent(in), optional :: parts(:)
+    logical :: part_in(size(model%part))
+    part_in = .false.
+    if (present(parts)) part_in(parts) = .true.
+    if (kind == side_part_set) part_in(model%part_set(row)%member) = .true.
+    if (kind == side_part) part_in(row) = .true.
+    facets%is_listed = part_in(facets%part)
+  end subroutine list_parts
+
+  !> The facets that are segments (4, *), whose last node is 0 or the third of a triangle.
+  subroutine list_segments(model, segment, facets)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: segment(:, :)
+    type(facets_t), intent(inout) :: facets
+    integer :: first(model%nodes), next(facets%n), s, k, m
+    first = 0
+    do k = 1, facets%n
+      m = minval(facets%node(:corners_of(facets, k), k))
+      next(k) = first(m)
+      first(m) = k
+    end do
+    do s = 1, size(segment, 2)
+      k = first(minval(segment(:, s), mask=segment(:, s) > 0))
+      do while (k > 0)
+        if (all([(any(segment(:, s) == facets%node(m, k)), m=1, corners_of(facets, k))])) &
+            facets%is_listed(k) = .true.
+        k = next(k)
+      end do
+    end do
+  end subroutine list_segments
 
   !> Which edges are among the segments, in either direction.
   pure function in_segments(nodes, edge, segment) result(found)
@@ -222,35 +271,6 @@ contains
     real(wp), intent(in) :: a(2), b(2)
     turn_between = atan2(a(1)*b(2) - a(2)*b(1), a(1)*b(1) + a(2)*b(2))
   end function turn_between
-
-  !> The body of every edge: elements that share nodes belong together.
-  subroutine find_bodies(model, surface)
-    type(model_t), intent(in) :: model
-    type(surface_t), intent(inout) :: surface
-    integer, allocatable :: root(:)
-    integer :: e, k, a, b
-    allocate (root(model%nodes))
-    root = [(k, k=1, model%nodes)]
-    do e = 1, model%mesh%n
-      do k = 2, model%mesh%count_of(e)
-        a = root_of(root, model%mesh%node_of(1, e))
-        b = root_of(root, model%mesh%node_of(k, e))
-        root(max(a, b)) = min(a, b)
-      end do
-    end do
-    allocate (surface%body(size(surface%length)))
-    do k = 1, size(surface%length)
-      surface%body(k) = root_of(root, surface%end_node(1, k))
-    end do
-  end subroutine find_bodies
-
-  pure integer function root_of(root, node)
-    integer, intent(in) :: root(:), node
-    root_of = node
-    do while (root(root_of) /= root_of)
-      root_of = root(root_of)
-    end do
-  end function root_of
 
   !> The shortest edge of the boundary at row k of the nodes [L]; the length given where there
   !> is no boundary.

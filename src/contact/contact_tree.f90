@@ -1,23 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A tree of boxes over the edges of a surface: which edges lie near a point or a box, the
-!> distance of a point, how often the boundary winds round it. Built once, split at the median
-!> of the longest axis; refitted when the edges have moved.
+!> The tree of boxes over the edges of a surface in the plane: which edges lie near a point or a
+!> box, the distance of a point, how often the boundary winds round it.
 module contact_tree
-  use base_kinds, only: wp, zero, one, half
-  use base_sort, only: sort_order_real
+  use base_kinds, only: wp, zero, one
+  use contact_boxes, only: boxes_t, build_boxes, refit_boxes, push_children, box_distance_2, &
+      deepest_stack
   implicit none
   private
 
-  integer, parameter :: leaf_size = 4
-  integer, parameter :: most_levels = 64
   real(wp), parameter :: farthest = 1.0e150_wp    !< its square is a number
 
-  type, public :: tree_t
-    integer :: n = 0                          !< boxes
-    integer, allocatable :: first(:), last(:) !< items of a box, places in item
-    integer, allocatable :: child(:)          !< the first of two; 0 = leaf
-    integer, allocatable :: item(:)           !< edges
-    real(wp), allocatable :: low(:, :), high(:, :)   !< (2, boxes) [L]
+  type, extends(boxes_t), public :: tree_t
     real(wp), allocatable :: a(:, :), b(:, :)        !< (2, edges) their ends now [L]
   end type tree_t
 
@@ -29,74 +22,18 @@ contains
   subroutine build_tree(a, b, tree)
     real(wp), intent(in) :: a(:, :), b(:, :)
     type(tree_t), intent(out) :: tree
-    integer :: n, k
-    n = size(a, 2)
-    allocate (tree%item(n), tree%a(2, n), tree%b(2, n))
-    allocate (tree%first(2*n + 1), tree%last(2*n + 1), tree%child(2*n + 1))
-    allocate (tree%low(2, 2*n + 1), tree%high(2, 2*n + 1))
-    tree%item = [(k, k=1, n)]
     tree%a = a
     tree%b = b
-    if (n == 0) return
-    tree%n = 1
-    tree%first(1) = 1
-    tree%last(1) = n
-    k = 1
-    do while (k <= tree%n)
-      call split(tree, k)
-      k = k + 1
-    end do
-    call refit_tree(a, b, tree)
+    call build_boxes(min(a, b), max(a, b), tree)
   end subroutine build_tree
 
-  !> Makes two boxes of box k at the median of its longest axis; a small box is a leaf.
-  subroutine split(tree, k)
-    type(tree_t), intent(inout) :: tree
-    integer, intent(in) :: k
-    real(wp), allocatable :: middle(:, :)
-    integer, allocatable :: order(:)
-    integer :: axis, n, half_way
-    tree%child(k) = 0
-    n = tree%last(k) - tree%first(k) + 1
-    if (n <= leaf_size) return
-    associate (item => tree%item(tree%first(k):tree%last(k)))
-      middle = half*(tree%a(:, item) + tree%b(:, item))
-      axis = 1
-      if (maxval(middle(2, :)) - minval(middle(2, :)) > &
-          maxval(middle(1, :)) - minval(middle(1, :))) axis = 2
-      allocate (order(n))
-      call sort_order_real(middle(axis, :), order)
-      item = item(order)
-    end associate
-    half_way = tree%first(k) + n/2 - 1
-    tree%child(k) = tree%n + 1
-    tree%first(tree%n + 1:tree%n + 2) = [tree%first(k), half_way + 1]
-    tree%last(tree%n + 1:tree%n + 2) = [half_way, tree%last(k)]
-    tree%n = tree%n + 2
-  end subroutine split
-
-  !> Boxes for edges that have moved to a and b: children stand behind their parent.
-  pure subroutine refit_tree(a, b, tree)
+  !> Boxes for edges that have moved to a and b.
+  subroutine refit_tree(a, b, tree)
     real(wp), intent(in) :: a(:, :), b(:, :)
     type(tree_t), intent(inout) :: tree
-    integer :: k, i
     tree%a = a
     tree%b = b
-    do k = tree%n, 1, -1
-      if (tree%child(k) > 0) then
-        associate (c => tree%child(k))
-          tree%low(:, k) = min(tree%low(:, c), tree%low(:, c + 1))
-          tree%high(:, k) = max(tree%high(:, c), tree%high(:, c + 1))
-        end associate
-      else
-        tree%low(:, k) = huge(one)
-        tree%high(:, k) = -huge(one)
-        do i = tree%first(k), tree%last(k)
-          tree%low(:, k) = min(tree%low(:, k), a(:, tree%item(i)), b(:, tree%item(i)))
-          tree%high(:, k) = max(tree%high(:, k), a(:, tree%item(i)), b(:, tree%item(i)))
-        end do
-      end if
-    end do
+    call refit_boxes(min(a, b), max(a, b), tree)
   end subroutine refit_tree
 
   !> Adds to list, after its first n entries, the edges within reach [L] of point p. list must
@@ -105,7 +42,7 @@ contains
     type(tree_t), intent(in) :: tree
     real(wp), intent(in) :: p(2), reach
     integer, intent(inout) :: list(:), n
-    integer :: stack(2*most_levels), top, k, i
+    integer :: stack(deepest_stack), top, k, i
     if (tree%n == 0) return
     top = 1
     stack(1) = 1
@@ -130,7 +67,7 @@ contains
     type(tree_t), intent(in) :: tree
     real(wp), intent(in) :: low(2), high(2)
     integer, intent(inout) :: list(:), n
-    integer :: stack(2*most_levels), top, k, i
+    integer :: stack(deepest_stack), top, k, i
     if (tree%n == 0) return
     top = 1
     stack(1) = 1
@@ -161,7 +98,7 @@ contains
     real(wp), intent(in) :: p(2), limit
     real(wp), intent(out) :: distance
     integer, intent(out) :: edge
-    integer :: stack(2*most_levels), top, k, i
+    integer :: stack(deepest_stack), top, k, i
     real(wp) :: best, d
     best = min(limit, farthest)**2
     edge = 0
@@ -198,7 +135,7 @@ contains
     type(tree_t), intent(in) :: tree
     logical, intent(in) :: left_out(:)
     real(wp), intent(in) :: p(2)
-    integer :: stack(2*most_levels), top, k, i
+    integer :: stack(deepest_stack), top, k, i
     winding_number = 0
     top = min(1, tree%n)
     stack(1) = 1
@@ -220,21 +157,6 @@ contains
       end do
     end do
   end function winding_number
-
-  pure subroutine push_children(tree, k, stack, top)
-    type(tree_t), intent(in) :: tree
-    integer, intent(in) :: k
-    integer, intent(inout) :: stack(:), top
-    stack(top + 1:top + 2) = [tree%child(k), tree%child(k) + 1]
-    top = top + 2
-  end subroutine push_children
-
-  pure real(wp) function box_distance_2(tree, k, p)
-    type(tree_t), intent(in) :: tree
-    integer, intent(in) :: k
-    real(wp), intent(in) :: p(2)
-    box_distance_2 = sum(max(tree%low(:, k) - p, p - tree%high(:, k), zero)**2)
-  end function box_distance_2
 
   pure real(wp) function edge_distance_2(tree, e, p)
     type(tree_t), intent(in) :: tree

@@ -48,7 +48,7 @@ module deck_difference
       'BIPACT_CONTACT DFIRST', 'BIPACT_CONTACT DLAST', 'BIPACT_CONTACT DEVERY', &
       'BIPACT_SOLVER NLAST']
   !> Their cards are counted together for the number of a contact.
-  character(*), parameter :: contacts = 'CONTACT_2D_', walls = 'RIGIDWALL_'
+  character(*), parameter :: contacts = 'CONTACT_', walls = 'RIGIDWALL_'
 
 contains
 

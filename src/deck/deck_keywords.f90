@@ -2,7 +2,8 @@
 !> The keywords that this version knows: the one place that has their cards, columns, units (as
 !> dimensions), defaults and ranges, in pieces by subject.
 module deck_keywords
-  use deck_keywords_contact, only: add_contact_keywords, add_output_keywords
+  use deck_keywords_contact, only: add_contact_keywords, add_space_contact_keywords, &
+      add_output_keywords
   use deck_keywords_wall, only: add_wall_keywords
   use deck_keywords_load, only: add_load_keywords
   use deck_keywords_mesh, only: add_mesh_keywords
@@ -29,11 +30,12 @@ contains
     call add_own_keywords(table)
   end subroutine fill_table
 
-  !> Adds the keywords that are skipped or refused, once: they are looked for when a name is
-  !> none of those that are used.
+  !> Adds the contacts in space, and the keywords that are skipped or refused, once: they are
+  !> looked for when a name is none of those that every deck may use.
   subroutine complete_table(table)
     type(table_t), intent(inout) :: table
     if (table%is_complete) return
+    call add_space_contact_keywords(table)
     call add_reader_keywords(table)
     call add_skipped_keywords(table)
     call add_refused_keywords(table)

@@ -6,7 +6,7 @@ module deck_keywords_contact
   use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field
   implicit none
   private
-  public :: add_contact_keywords, add_output_keywords
+  public :: add_contact_keywords, add_space_contact_keywords, add_output_keywords
 
 contains
 
@@ -62,6 +62,105 @@ contains
     call add_field(table, 'SLDSOB', 'R10 fixed')
     call add_field(table, 'TDPEN', 'R10 note', 'of penalty methods')
   end subroutine add_contact
+
+  !> Adds the contact cards of models in space.
+  subroutine add_space_contact_keywords(table)
+    type(table_t), intent(inout) :: table
+    call add_space_contact(table, 'CONTACT_AUTOMATIC_SURFACE_TO_SURFACE', &
+        'contact of two bodies in space; nodes and edges of both are watched')
+    call add_alias(table, 'CONTACT_SURFACE_TO_SURFACE')
+    call add_space_contact(table, 'CONTACT_AUTOMATIC_NODES_TO_SURFACE', &
+        'contact of two bodies in space; the nodes of SURFA are exact')
+    call add_alias(table, 'CONTACT_NODES_TO_SURFACE')
+    call add_space_contact(table, 'CONTACT_AUTOMATIC_SINGLE_SURFACE', &
+        'contact of all parts of SURFA in space with each other and with themselves')
+    call add_alias(table, 'CONTACT_SINGLE_SURFACE')
+  end subroutine add_space_contact_keywords
+
+  subroutine add_space_contact(table, name, help)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name, help
+    call add_keyword(table, name, help, id=.true., title_is_id=.true., required=1)
+    call add_card(table)
+    if (index(name, 'SINGLE_SURFACE') > 0) then
+      call add_field(table, 'SURFA', 'I10 =0 >=0', 'part set or part; 0 = all parts')
+      call add_field(table, 'SURFB', 'I10 fixed')
+      call add_field(table, 'SURFATYP', 'I10 =2 >=0 <=5', '2 part set, 3 part, 5 all parts')
+      call add_field(table, 'SURFBTYP', 'I10 fixed')
+    else
+      call add_field(table, 'SURFA', 'I10 =0 >=0', 'what SURFATYP says')
+      call add_field(table, 'SURFB', 'I10 =0 >=0', 'what SURFBTYP says')
+      call add_field(table, 'SURFATYP', 'I10 =0 >=0 <=7', &
+          '0 segment set, 2 part set, 3 part, 4 node set, 5 all parts')
+      call add_field(table, 'SURFBTYP', 'I10 =0 >=0 <=7', &
+          '0 segment set, 2 part set, 3 part, 5 all parts')
+    end if
+    call add_field(table, 'SABOXID', 'I10 fixed', 'a box')
+    call add_field(table, 'SBBOXID', 'I10 fixed', 'a box')
+    call add_field(table, 'SAPR', 'I10 note', 'forces are in RCFORC anyway')
+    call add_field(table, 'SBPR', 'I10 note', 'the same')
+    call add_card(table)
+    call add_field(table, 'FS', 'R10 =0.0 >=0', 'friction mu at rest')
+    call add_field(table, 'FD', 'R10 =0.0 0=d >=0', 'friction at speed; DC = 0: no effect')
+    call add_field(table, 'DC', 'R10 =0.0 0=d [T/L] >=0', &
+        'mu = FD + (FS - FD) exp(-DC speed of slip); 0: mu = FS')
+    call add_field(table, 'VC', 'R10 fixed', 'viscous friction')
+    call add_field(table, 'VDC', 'R10 note', 'of penalty methods')
+    call add_field(table, 'PENCHK', 'I10 note', 'overlap is watched always')
+    call add_field(table, 'BT', 'R10 =0.0 [T]', 'contact is active from this time')
+    call add_field(table, 'DT', 'R10 =1.0E20 0=d [T]', 'to this time')
+    call add_card(table)
+    call add_field(table, 'SFSA', 'R10 note =1.0 0=d', 'of penalty methods')
+    call add_field(table, 'SFSB', 'R10 note =1.0 0=d', 'of penalty methods')
+    call add_field(table, 'SAST', 'R10 fixed', 'thickness of shells')
+    call add_field(table, 'SBST', 'R10 fixed', 'thickness of shells')
+    call add_field(table, 'SFSAT', 'R10 note =1.0 0=d', 'thickness of shells')
+    call add_field(table, 'SFSBT', 'R10 note =1.0 0=d', 'thickness of shells')
+    call add_field(table, 'FSF', 'R10 fixed =1.0 0=d', 'factor of friction: FS has it')
+    call add_field(table, 'VSF', 'R10 fixed =1.0 0=d', 'factor of viscous friction')
+    call add_optional_cards(table)
+  end subroutine add_space_contact
+
+  !> Optional cards A to G: of penalty methods.
+  subroutine add_optional_cards(table)
+    type(table_t), intent(inout) :: table
+    character(*), parameter :: names(7) = [character(71) :: &
+        'SOFT   SOFSCL LCIDAB MAXPAR SBOPT  DEPTH  BSORT  FRCFRQ', &
+        'PENMAX THKOPT SHLTHK SNLOG  ISYM   I2D3D  SLDTHK SLDSTF', &
+        'IGAP   IGNORE DPRFAC DTSTIF EDGEK  -      FLANGL CID_RCF', &
+        'Q2TRI  DTPCHK SFNBR  FNLSCL DNLSCL TCSO   TIEDID SHLEDG', &
+        'SHAREC CPARM8 IPBACK SRNDE  FRICSF ICOR   FTORQ  REGION', &
+        'PSTIFF IGNROFF -     FSTOL  2DBINR SSFTYP SWTPR  TETFAC', &
+        '-      SHLOFF']
+    integer :: k, first, last
+    do k = 1, size(names)
+      call add_card(table)
+      first = 1
+      do while (first <= len_trim(names(k)))
+        last = first - 1 + index(names(k)(first:)//' ', ' ') - 1
+        call add_optional(table, names(k)(first:last), k, first)
+        first = last + verify(names(k)(last + 1:)//'x', ' ')
+      end do
+    end do
+  end subroutine add_optional_cards
+
+  subroutine add_optional(table, name, card, first)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: name
+    integer, intent(in) :: card, first
+    character(8) :: unused
+    select case (name)
+    case ('-')
+      write (unused, '(a, i0, a, i0)') 'NONE', card, '_', first
+      call add_field(table, trim(unused), 'R10 fixed', 'not used')
+    case ('SLDTHK')
+      call add_field(table, name, 'R10 fixed', 'thickness of solids')
+    case ('FRICSF')
+      call add_field(table, name, 'R10 fixed =1.0 0=d', 'factor of friction: FS has it')
+    case default
+      call add_field(table, name, 'R10 note', 'of penalty methods')
+    end select
+  end subroutine add_optional
 
   !> Adds the requests for tables and their nodes and elements.
   subroutine add_output_keywords(table)

@@ -29,9 +29,6 @@ contains
         'materials are *MAT_ELASTIC and *MAT_RIGID')
     call refuse(table, 'ELEMENT_SOLID_H20', 'faces of eight nodes pull at contact: '// &
         'take *ELEMENT_SOLID')
-    call refuse(table, 'CONTACT_AUTOMATIC_SURFACE_TO_SURFACE', &
-        'plane models take *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE; in space there are '// &
-        'rigid walls only')
     call refuse(table, 'DEFINE_TRANSFORMATION', '')
     call add_options(table)
     call add_solid_options(table)

@@ -15,9 +15,10 @@ module scene_contact
   private
   public :: read_contacts, id_before, merged
 
-  character(40), parameter, public :: contact_keyword(3) = [character(40) :: &
+  character(40), parameter, public :: contact_keyword(6) = [character(40) :: &
       'CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE', 'CONTACT_2D_AUTOMATIC_NODE_TO_SURFACE', &
-      'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE']
+      'CONTACT_2D_AUTOMATIC_SINGLE_SURFACE', 'CONTACT_AUTOMATIC_SURFACE_TO_SURFACE', &
+      'CONTACT_AUTOMATIC_NODES_TO_SURFACE', 'CONTACT_AUTOMATIC_SINGLE_SURFACE']
   character(5), parameter :: surface(2) = ['SURFA', 'SURFB']
   character(4), parameter :: kind_field(2) = ['ATYP', 'BTYP']
 
@@ -35,24 +36,28 @@ contains
       call records_of(deck, trim(contact_keyword(k)), 1, other)
       record = merged(record, other)
     end do
-    if (model%dim == 3 .and. size(record) > 0) then
-      call deck%complain(record(1), '', 'expected no contact of plane bodies: the model is '// &
-          'in space', 'contact is not available in space in this version')
-      record = record(:0)
-    end if
+    call check_dimension(deck, model%dim, record)
     allocate (model%contact(size(record)))
     do k = 1, size(record)
-      call read_card(deck, record(k), k, model%contact(k))
+      if (model%dim == 3) then
+        call read_card_in_space(deck, record(k), k, model%contact(k))
+      else
+        call read_card(deck, record(k), k, model%contact(k))
+      end if
     end do
     call make_id_map(deck, 'contact', 'SURFA', model%contact%id, record, maps%contact)
     call read_pairs(deck, model, maps, pair)
     do k = 1, size(record)
-      call find_sides(deck, model, maps, pair(k), model%contact(k))
+      if (model%dim == 3) then
+        call find_sides_in_space(deck, model, maps, pair(k), model%contact(k))
+      else
+        call find_sides(deck, model, maps, pair(k), model%contact(k))
+      end if
     end do
     if (deck%problems%count == 0) call share_parts(deck, model)
     do k = 1, size(record)
       if (model%contact(k)%pairing == 'MORTAR') &
-          call check_mortar(deck, pair(k), model%contact(k))
+          call check_mortar(deck, model%dim, pair(k), model%contact(k))
       if (pair(k) > 0) call read_overlap(deck, model, pair(k), model%contact(k))
     end do
     call warn_thickness(deck, model)
@@ -99,6 +104,53 @@ contains
     card%birth = deck%real(second, 'TBIRTH')
     card%death = deck%real(second, 'TDEATH')
   end subroutine read_card
+
+  !> The model is plane or in space: contact cards must be so too.
+  subroutine check_dimension(deck, dim, record)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: dim
+    integer, allocatable, intent(inout) :: record(:)
+    logical :: fits(size(record))
+    integer :: k
+    do k = 1, size(record)
+      fits(k) = (index(keyword_of(deck, record(k)), '_2D_') > 0) .eqv. dim == 2
+      if (fits(k)) cycle
+      if (dim == 3) then
+        call deck%complain(record(k), '', 'a contact of plane bodies, but the model is in space', &
+            'expected *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE, _NODES_TO_SURFACE or _SINGLE_SURFACE')
+      else
+        call deck%complain(record(k), '', 'a contact in space, but the model is plane', &
+            'expected *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE, _NODE_TO_SURFACE or '// &
+            '_SINGLE_SURFACE')
+      end if
+    end do
+    record = pack(record, fits)
+  end subroutine check_dimension
+
+  !> The name of the keyword of a record, without options.
+  function keyword_of(deck, record) result(name)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: record
+    character(:), allocatable :: name
+    name = trim(deck%table%keyword(deck%block(deck%record(record)%block)%keyword)%canonical)
+  end function keyword_of
+
+  !> A card in space: friction and times are on its second line.
+  subroutine read_card_in_space(deck, record, number, card)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record, number
+    type(contact_card_t), intent(inout) :: card
+    integer :: second
+    card%record = record
+    card%id = id_before(deck, record, number)
+    if (index(keyword_of(deck, record), '_NODES_TO_') > 0) card%contactor = 1
+    card%is_self = index(keyword_of(deck, record), 'SINGLE_SURFACE') > 0
+    second = deck%follow(record, 2)
+    if (second == 0) return
+    call read_friction(deck, second, card)
+    card%birth = deck%real(second, 'BT')
+    card%death = deck%real(second, 'DT')
+  end subroutine read_card_in_space
 
   !> Friction: FS alone while DC is zero, else from FS at rest to FD at speed.
   subroutine read_friction(deck, record, card)
@@ -226,13 +278,82 @@ contains
     end do
   end subroutine find_sides
 
-  !> Multipliers live on the edges of one of two surfaces.
-  subroutine check_mortar(deck, pair, card)
+  !> What SURFA and SURFB are in space: as SURFATYP and SURFBTYP say, or ATYP and BTYP of
+  !> *BIPACT_PAIR.
+  subroutine find_sides_in_space(deck, model, maps, pair, card)
     type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    type(maps_t), intent(in) :: maps
     integer, intent(in) :: pair
+    type(contact_card_t), intent(inout) :: card
+    character(:), allocatable :: kind
+    integer :: s, id
+    do s = 1, merge(1, 2, card%is_self)
+      id = deck%integer(card%record, surface(s))
+      kind = ''
+      if (pair > 0) kind = deck%word(pair, kind_field(s))
+      if (kind == '') kind = kind_in_space(deck, card, s, id)
+      select case (kind)
+      case ('ALL')
+        card%kind(s) = side_all_parts
+        card%side(s) = 0
+      case ('NODESET')
+        card%kind(s) = side_node_set
+        card%side(s) = find_or_complain(deck, maps%node_set, card%record, surface(s), id, &
+            'node set')
+      case ('PART')
+        card%kind(s) = side_part
+        card%side(s) = find_or_complain(deck, maps%part, card%record, surface(s), id, 'part')
+      case ('SEGSET')
+        card%kind(s) = side_segment_set
+        card%side(s) = find_or_complain(deck, maps%segment_set, card%record, surface(s), id, &
+            'segment set')
+      case ('PARTSET')
+        card%kind(s) = side_part_set
+        card%side(s) = find_or_complain(deck, maps%part_set, card%record, surface(s), id, &
+            'part set')
+      end select
+    end do
+    if (all(card%kind == side_all_parts) .and. .not. card%is_self) card%is_self = .true.
+  end subroutine find_sides_in_space
+
+  !> SURFATYP or SURFBTYP in words; '' after a complaint.
+  function kind_in_space(deck, card, s, id) result(kind)
+    type(deck_t), intent(inout) :: deck
+    type(contact_card_t), intent(in) :: card
+    integer, intent(in) :: s, id
+    character(:), allocatable :: kind
+    character(*), parameter :: by_number(0:7) = [character(7) :: &
+        'SEGSET', '', 'PARTSET', 'PART', 'NODESET', 'ALL', '', '']
+    integer :: type
+    type = deck%integer(card%record, surface(s)//'TYP')
+    kind = trim(by_number(type))
+    if (card%is_self .and. id == 0) kind = 'ALL'
+    if (kind == 'NODESET' .and. (s == 2 .or. card%is_self .or. card%contactor /= 1)) then
+      call deck%complain(card%record, surface(s)//'TYP', 'a node set is SURFA of '// &
+          '*CONTACT_..._NODES_TO_SURFACE alone', 'expected 0, 2, 3 or 5; or ATYP, BTYP of '// &
+          '*BIPACT_PAIR')
+      kind = ''
+    else if (card%is_self .and. kind == 'SEGSET') then
+      call deck%complain(card%record, surface(s)//'TYP', 'the surfaces of *CONTACT_..._'// &
+          'SINGLE_SURFACE are parts', 'expected 2 part set, 3 part or 5 all parts')
+      kind = ''
+    else if (kind == '') then
+      call deck%complain(card%record, surface(s)//'TYP', to_text(type)//' is not available', &
+          'expected 0 segment set, 2 part set, 3 part, 4 node set or 5 all parts')
+    end if
+  end function kind_in_space
+
+  !> Multipliers live on the edges of one of two surfaces.
+  subroutine check_mortar(deck, dim, pair, card)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: dim, pair
     type(contact_card_t), intent(in) :: card
     character(*), parameter :: instead = 'take PAIRING NODE'
-    if (card%contactor == 3) then
+    if (dim == 3) then
+      call deck%complain(pair, 'PAIRING', 'MORTAR is not available in space in this version', &
+          instead)
+    else if (card%contactor == 3) then
       call deck%complain(pair, 'SIDE', 'MORTAR has multipliers on one side: expected A, B '// &
           'or AUTO', instead//' where both sides are to have exact nodes')
     else if (card%is_self) then

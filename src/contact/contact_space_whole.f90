@@ -1,0 +1,199 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> True overlap of whole bodies in space: all nodes of one boundary against the facets of the
+!> other, all edges that go through them, and sharp edges that have passed each other.
+module contact_space_whole
+  use base_kinds, only: wp, zero, one, half
+  use contact_fan, only: fan_t
+  use contact_pairing, only: overlap_t, note_overlap
+  use contact_sight, only: seen_t, place_of_node
+  use contact_skin, only: skin_t
+  use contact_space_gap, only: gap_of_nearest
+  use contact_space_tree, only: space_tree_t, items_in_box, nearest_facet
+  use contact_surface, only: surface_t
+  use linalg_dense, only: cross
+  implicit none
+  private
+  public :: deepest_node_in_space, deepest_edge_in_space, whole_gap, leave_out_in_space
+
+contains
+
+  !> Gap of a place (3, 2) before the whole of a net [L], but for what is left out, and the
+  !> nearest facet; huge and 0 where there is none.
+  pure subroutine whole_gap(skin, tree, x, u, from, left_out, fan, gap, facet)
+    type(skin_t), intent(in) :: skin
+    type(space_tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp), intent(in) :: from(3, 2)
+    logical, intent(in) :: left_out(:)
+    type(fan_t), intent(inout) :: fan
+    real(wp), intent(out) :: gap
+    integer, intent(out) :: facet
+    type(seen_t) :: nearest
+    call nearest_facet(tree, skin, x, u, from, left_out, nearest)
+    gap = huge(one)
+    if (nearest%facet > 0) call gap_of_nearest(skin, x, u, from, nearest, fan, gap)
+    facet = nearest%facet
+  end subroutine whole_gap
+
+  !> Facets of a body, and of parts that a part does not touch.
+  pure subroutine leave_out_in_space(skin, facet, leaves_out, left_out)
+    type(skin_t), intent(in) :: skin
+    integer, intent(in) :: facet
+    logical, intent(in) :: leaves_out(:, :)
+    logical, intent(out) :: left_out(:)
+    left_out = skin%body == skin%body(facet)
+    if (size(leaves_out) > 0) left_out = left_out .or. &
+        leaves_out(skin%part(facet), skin%part)
+  end subroutine leave_out_in_space
+
+  !> The deepest node of `own` inside the closed obstacle at X + U. is_self: both are one surface
+  !> of several bodies; each node asks for the others.
+  subroutine deepest_node_in_space(own, own_skin, skin, tree, x, u, is_self, leaves_out, fan, &
+      overlap)
+    type(surface_t), intent(in) :: own
+    type(skin_t), intent(in) :: own_skin, skin
+    type(space_tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    logical, intent(in) :: is_self, leaves_out(:, :)
+    type(fan_t), intent(inout) :: fan
+    type(overlap_t), intent(inout) :: overlap
+    logical :: left_out(skin%facets)
+    real(wp) :: p(3), gap
+    integer :: k, facet, own_facet, last
+    if (tree%boxes%n == 0) return
+    left_out = .false.
+    last = 0
+    do k = 1, size(own%node)
+      p = x(:, own%node(k)) + u(:, own%node(k))
+      if (any(p < tree%boxes%low(:, 1) .or. p > tree%boxes%high(:, 1))) cycle
+      associate (v => own_skin%at(own%node(k)))
+        if (is_self) then
+          if (v == 0) cycle
+          own_facet = own_skin%facet(own_skin%first_facet(v))
+          if (last == 0 .or. own_facet /= last) &
+              call leave_out_in_space(skin, own_facet, leaves_out, left_out)
+          last = own_facet
+        else if (skin%at(own%node(k)) > 0) then
+          cycle
+        end if
+        call whole_gap(skin, tree, x, u, place_of_node(x, u, own%node(k)), left_out, fan, gap, &
+            facet)
+        if (.not. gap < zero) cycle
+        call note_overlap(overlap, -gap, min(skin%size(facet), own_length(own_skin, v)), &
+            own%node(k), skin%part_id(facet), .false.)
+      end associate
+    end do
+  end subroutine deepest_node_in_space
+
+  !> The shortest edge at a vertex [L]; huge for a lone node.
+  pure real(wp) function own_length(skin, v)
+    type(skin_t), intent(in) :: skin
+    integer, intent(in) :: v
+    own_length = huge(one)
+    if (v > 0) own_length = skin%shortest(v)
+  end function own_length
+
+  !> The deepest place of an edge of `own` between two points where it goes through the boundary
+  !> of the closed obstacle.
+  subroutine deepest_edge_in_space(own, skin, tree, x, u, is_self, leaves_out, fan, overlap)
+    type(skin_t), intent(in) :: own, skin
+    type(space_tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    logical, intent(in) :: is_self, leaves_out(:, :)
+    type(fan_t), intent(inout) :: fan
+    type(overlap_t), intent(inout) :: overlap
+    logical :: left_out(skin%facets)
+    integer :: list(size(tree%skin_item)), e, n, i, facet
+    real(wp) :: a(3), d(3), low, high, gap, length
+    left_out = .false.
+    do e = 1, own%edges
+      if (.not. own%is_listed(own%beside(1, e))) cycle
+      a = x(:, own%ends(1, e)) + u(:, own%ends(1, e))
+      d = (x(:, own%ends(2, e)) + u(:, own%ends(2, e))) - a
+      call items_in_box(tree, min(a, a + d), max(a, a + d), list, n)
+      if (n == 0) cycle
+      if (is_self) call leave_out_in_space(skin, own%beside(1, e), leaves_out, left_out)
+      low = one
+      high = zero
+      do i = 1, n
+        if (left_out(list(i))) cycle
+        if (any(skin%node(:, list(i)) == own%ends(1, e)) .or. &
+            any(skin%node(:, list(i)) == own%ends(2, e))) cycle
+        call pierce(skin, list(i), x, u, a, d, low, high)
+      end do
+      if (high <= low) cycle
+      call deepest_between(low, high)
+      length = norm2(d)
+      if (gap < zero) call note_overlap(overlap, -gap, min(skin%size(facet), length), &
+          own%ends(1, e), skin%part_id(facet), .true.)
+    end do
+  contains
+    !> The distance from the boundary is concave between the two places where it is zero, if
+    !> the obstacle is convex there: the place of its largest value by thirds.
+    subroutine deepest_between(low, high)
+      real(wp), intent(inout) :: low, high
+      integer, parameter :: rounds = 12
+      real(wp) :: g(2)
+      integer :: k
+      do k = 1, rounds
+        g(1) = depth_at(low + (high - low)/3.0_wp)
+        g(2) = depth_at(high - (high - low)/3.0_wp)
+        if (g(1) < g(2)) then
+          high = high - (high - low)/3.0_wp
+        else
+          low = low + (high - low)/3.0_wp
+        end if
+      end do
+      gap = depth_at(half*(low + high))
+    end subroutine deepest_between
+    real(wp) function depth_at(t)
+      real(wp), intent(in) :: t
+      real(wp) :: from(3, 2)
+      from(:, 1) = a + t*d
+      from(:, 2) = zero
+      call whole_gap(skin, tree, x, u, from, left_out, fan, depth_at, facet)
+    end function depth_at
+  end subroutine deepest_edge_in_space
+
+  !> Where the segment a + t d, 0 < t < 1, goes through a facet: low and high are the first and
+  !> the last such t. A quadrilateral is four triangles about its middle.
+  pure subroutine pierce(skin, facet, x, u, a, d, low, high)
+    type(skin_t), intent(in) :: skin
+    integer, intent(in) :: facet
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp), intent(in) :: a(3), d(3)
+    real(wp), intent(inout) :: low, high
+    real(wp) :: c(3, 4), middle(3)
+    integer :: k, m
+    m = skin%corners(facet)
+    do k = 1, m
+      c(:, k) = (x(:, skin%node(k, facet)) + u(:, skin%node(k, facet))) - a
+    end do
+    if (m == 3) then
+      call pierce_triangle(c(:, 1), c(:, 2), c(:, 3), d, low, high)
+      return
+    end if
+    middle = sum(c, dim=2)/m
+    do k = 1, m
+      call pierce_triangle(c(:, k), c(:, 1 + mod(k, m)), middle, d, low, high)
+    end do
+  end subroutine pierce
+
+  !> The same of a triangle with corners seen from a.
+  pure subroutine pierce_triangle(p, q, r, d, low, high)
+    real(wp), intent(in) :: p(3), q(3), r(3), d(3)
+    real(wp), intent(inout) :: low, high
+    real(wp) :: n(3), volume(3), t
+    n = cross(q - p, r - p)
+    t = dot_product(n, d)
+    if (.not. abs(t) > epsilon(one)*norm2(n)*norm2(d)) return
+    t = dot_product(n, p)/t
+    if (t <= zero .or. t >= one) return
+    volume = [dot_product(cross(p, q), d), dot_product(cross(q, r), d), &
+        dot_product(cross(r, p), d)]
+    if (any(volume > zero) .and. any(volume < zero)) return
+    low = min(low, t)
+    high = max(high, t)
+  end subroutine pierce_triangle
+
+end module contact_space_whole
