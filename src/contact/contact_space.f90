@@ -18,14 +18,13 @@ module contact_space
   use contact_space_edges, only: edge_pairs_t, crossing_t, list_edge_pairs, cross_edges, &
       exchange_edge_pairs
   use contact_space_emit, only: emit_place, emit_crossing, judge_late_place, judge_late_crossing
-  use contact_space_gap, only: gap_before
+  use contact_space_gap, only: gap_before, all_gap
   use contact_space_grade, only: grade_in_space, settle_in_space
   use contact_space_near, only: list_near_in_space, mark_near_in_space, mark_pairs
   use contact_space_places, only: space_place_t, space_sight_t, find_space_places, &
       size_space_sight, sine_of_facing
   use contact_space_tree, only: space_tree_t, place_facets, place_edges, least_distance
-  use contact_space_whole, only: whole_gap, deepest_node_in_space, deepest_edge_in_space, &
-      leave_out_in_space
+  use contact_space_whole, only: deepest_node_in_space, deepest_edge_in_space, edge_inside
   use model_data, only: model_t
   implicit none
   private
@@ -323,7 +322,7 @@ contains
     end do
   end subroutine find_crossings
 
-  !> Rows of the exact places and of the crossings; those of the other places are kept apart.
+  !> Rows of the exact places and crossings; those that have an allowance are kept apart.
   subroutine space_append_rows(this, rows, spare)
     class(pairing_space_t), intent(inout) :: this
     type(rows_t), intent(inout) :: rows, spare
@@ -348,8 +347,11 @@ contains
       do while (k <= this%pairs%n)
         key = key_of(this, k)
         if (side == 1 .and. key(3) >= node) exit
-        if (this%crossing(k)%is_valid) call emit_crossing(key, this%friction%static, &
-            this%crossing(k), rows)
+        if (this%crossing(k)%is_valid .and. this%crossing(k)%allowance > zero) then
+          call emit_crossing(key, this%friction%static, this%crossing(k), spare)
+        else if (this%crossing(k)%is_valid) then
+          call emit_crossing(key, this%friction%static, this%crossing(k), rows)
+        end if
         k = k + 1
       end do
     end subroutine append_crossings
@@ -459,15 +461,13 @@ contains
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, intent(in) :: s, i, list(:)
     integer, intent(out) :: facet
-    integer :: k, t
-    logical :: left_out(this%skin(facing_side(this, s))%facets)
+    integer :: t
     t = facing_side(this, s)
     associate (node => this%side(s)%node(this%near(s)%node(i)), gap => this%near(s)%distance(i), &
         skin => this%skin(t))
       call gap_before(skin, list, x, u, place_of_node(x, u, node), this%sight%other, gap, facet)
       if (gap >= -least_allowance(this, s, this%near(s)%node(i)) .or. this%is_self) return
-      call gap_before(skin, pack([(k, k=1, skin%facets)], skin%is_listed), x, u, &
-          place_of_node(x, u, node), this%sight%other, gap, facet)
+      call all_gap(skin, x, u, place_of_node(x, u, node), this%sight%other, gap, facet)
     end associate
   end subroutine find_gap
 
@@ -535,9 +535,11 @@ contains
     type(model_t), intent(in) :: model
     real(wp), intent(in), contiguous :: u(:, :)
     type(overlap_t), intent(inout) :: overlap
-    logical :: some_deep
+    real(wp), parameter :: worth_a_look = 1.0e-6_wp    ! / edge
+    logical :: some_deep, is_placed
     integer :: s, i, k
     some_deep = .false.
+    is_placed = .false.
     do s = 1, watched_sides(this)
       if (.not. this%is_measured) call find_gaps(this, model%x, s, u, some_deep)
       associate (near => this%near(s), skin => this%skin(facing_side(this, s)))
@@ -558,27 +560,90 @@ contains
       associate (c => this%crossing(k))
         if (.not. c%is_valid) cycle
         this%sums%smallest_gap = min(this%sums%smallest_gap, c%gap)
-        if (c%gap < zero) call note_overlap(overlap, -c%gap, c%length, c%point(1), &
-            this%skin(facing_side(this, 1))%part_id(1), .true.)
+        if (c%gap < -worth_a_look*c%length) call note_pair(this, model%x, u, k, is_placed, overlap)
       end associate
     end do
     this%is_measured = .true.
   end subroutine space_measure
 
-  !> Nodes that were inside a closed obstacle at some time within a step of motion du to u, all
-  !> motions linear in time, and pairs of edges that have passed each other.
+  !> Near nodes that stand outside a closed obstacle and pairs of edges that do not cross at the
+  !> end u of a step of motion du: did they within it, all motions linear in time?
   subroutine space_find_passage(this, model, u, du, overlap)
     class(pairing_space_t), intent(inout) :: this
     type(model_t), intent(in) :: model
     real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     type(overlap_t), intent(inout) :: overlap
     integer, parameter :: times = 8
-    integer :: k
+    integer :: k, s
     if (this%is_self) return
     do k = 1, times - 1
-      call measure_whole_of(this, model, u - (one - real(k, wp)/times)*du, overlap)
+      associate (now => u - (one - real(k, wp)/times)*du)
+        do s = 1, 2
+          if (this%skin(3 - s)%is_closed) call nodes_inside(this, model%x, now, s, overlap)
+        end do
+        call pairs_across(this, model%x, now, overlap)
+      end associate
     end do
   end subroutine space_find_passage
+
+  !> Nodes of a side that are outside at the end of the step but inside at u.
+  subroutine nodes_inside(this, x, u, s, overlap)
+    type(pairing_space_t), intent(inout) :: this
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    integer, intent(in) :: s
+    type(overlap_t), intent(inout) :: overlap
+    real(wp) :: gap
+    integer :: i, facet
+    associate (near => this%near(s), skin => this%skin(3 - s))
+      do i = 1, near%n
+        if (near%distance(i) < zero) cycle
+        associate (node => this%side(s)%node(near%node(i)))
+          call gap_before(skin, near%edge(near%first(i):near%first(i + 1) - 1), x, u, &
+              place_of_node(x, u, node), this%sight%other, gap, facet)
+          if (gap >= zero) cycle
+          call all_gap(skin, x, u, place_of_node(x, u, node), this%sight%other, gap, facet)
+          if (gap < zero) call note_overlap(overlap, -gap, skin%size(facet), node, &
+              skin%part_id(facet), .false.)
+        end associate
+      end do
+    end associate
+  end subroutine nodes_inside
+
+  !> Pairs of edges that do not cross at the end of the step but do at u.
+  subroutine pairs_across(this, x, u, overlap)
+    type(pairing_space_t), intent(inout) :: this
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    type(overlap_t), intent(inout) :: overlap
+    type(crossing_t) :: c
+    integer :: k
+    logical :: is_placed
+    is_placed = .false.
+    do k = 1, this%pairs%n
+      if (this%crossing(k)%is_valid .and. this%crossing(k)%gap < zero) cycle
+      call cross_edges(this%skin(1), this%skin(facing_side(this, 1)), this%pairs%a(k), &
+          this%pairs%b(k), x, u, .false., c)
+      if (c%is_valid .and. c%gap < zero) call note_pair(this, x, u, k, is_placed, overlap)
+    end do
+  end subroutine pairs_across
+
+  !> How deep each edge of pair k stands in the other body at u. is_placed: the trees are there.
+  subroutine note_pair(this, x, u, k, is_placed, overlap)
+    type(pairing_space_t), intent(inout) :: this
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    integer, intent(in) :: k
+    logical, intent(inout) :: is_placed
+    type(overlap_t), intent(inout) :: overlap
+    logical :: nothing(max(this%skin(1)%facets, this%skin(2)%facets))
+    integer :: t
+    if (.not. is_placed) call place_trees(this, x, u)
+    is_placed = .true.
+    nothing = .false.
+    t = facing_side(this, 1)
+    call edge_inside(this%skin(1), this%pairs%a(k), this%skin(t), this%facets(t), x, u, nothing, &
+        this%sight%other, overlap)
+    call edge_inside(this%skin(t), this%pairs%b(k), this%skin(1), this%facets(1), x, u, nothing, &
+        this%sight%other, overlap)
+  end subroutine note_pair
 
   !> All nodes and edges of closed sides; of open ones what stands just behind them.
   subroutine space_measure_whole(this, model, u, overlap, accepted)

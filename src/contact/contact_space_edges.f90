@@ -7,6 +7,8 @@ module contact_space_edges
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one
   use base_sort, only: sort_order
+  use contact_pierce, only: pierces_edge
+  use contact_places, only: share_of_edge
   use contact_sight, only: from_node
   use contact_skin, only: skin_t
   use contact_space_tree, only: space_tree_t, items_in_box
@@ -27,14 +29,21 @@ module contact_space_edges
     real(wp) :: normal(3) = zero
     real(wp) :: gap = zero             !< [L]
     real(wp) :: length = zero          !< the shorter edge [L]
+    real(wp) :: allowance = zero       !< what it may go below zero [L]
     logical :: is_valid = .false.      !< it stands between the bodies
   end type crossing_t
 
   real(wp), parameter :: inside = 1.0e-8_wp     !< shares of an edge
   real(wp), parameter :: parallel = 1.0e-6_wp   !< squared sine
-  real(wp), parameter :: clear = 1.0e-3_wp      !< radians by which the arcs cross
+  !> Radians by which the arcs cross. Where they do so by less, or miss each other by less than
+  !> the second, one body lies with a face on the other: nodes see most of that, and the crossing
+  !> has their allowance.
+  real(wp), parameter :: clear = 1.0e-3_wp, missed = 2.0e-2_wp
   !> Shares of an edge: a deeper one is not before it.
-  real(wp), parameter :: deepest = 0.3_wp
+  real(wp), parameter :: deepest = 0.1_wp
+
+  !> Shares of an edge: a shallower one goes through the body.
+  real(wp), parameter :: sure = 1.0e-6_wp
 
   public :: list_edge_pairs, cross_edges, exchange_edge_pairs
 
@@ -125,7 +134,7 @@ contains
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     logical, intent(in) :: is_reference
     type(crossing_t), intent(out) :: crossing
-    real(wp) :: ea(3), eb(3), d(3), n(3), sine_2, s, t, length(2)
+    real(wp) :: ea(3), eb(3), d(3), n(3), sine_2, s, t, length(2), within
     ea = from_node(x, u, own%ends(1, a), own%ends(2, a))
     eb = from_node(x, u, obstacle%ends(1, b), obstacle%ends(2, b))
     n = cross(ea, eb)
@@ -140,14 +149,19 @@ contains
         x(:, obstacle%ends(2, b)) - x(:, obstacle%ends(1, b)))
     n = n/norm2(n)
     n = sign(one, side_of(obstacle, b, n, x, u))*n
-    if (.not. is_between(obstacle, b, n, eb/length(2), x, u)) return
-    if (.not. is_between(own, a, -n, ea/length(1), x, u)) return
+    within = min(in_arc(obstacle, b, n, eb/length(2), x, u), &
+        in_arc(own, a, -n, ea/length(1), x, u))
+    if (within <= -missed) return
     crossing%point = [own%ends(:, a), obstacle%ends(:, b)]
     crossing%weight = [one - s, s, t - one, -t]
     crossing%normal = n
     crossing%gap = -dot_product(n, d + t*eb - s*ea)
     crossing%length = minval(length)
+    if (within <= clear) crossing%allowance = share_of_edge*crossing%length
     crossing%is_valid = crossing%gap > -deepest*crossing%length
+    ! One edge is behind the other in the direction of n; it may have gone past the body there.
+    if (crossing%is_valid .and. crossing%gap < -sure*crossing%length) crossing%is_valid = &
+        pierces_edge(own, a, obstacle, b, x, u) .or. pierces_edge(obstacle, b, own, a, x, u)
   end subroutine cross_edges
 
   !> Which way a direction points out of the body at an edge.
@@ -161,8 +175,9 @@ contains
         /skin%size(skin%beside(2, e))**2)
   end function side_of
 
-  !> Is n inside the arc from the normal of the first facet of an edge along t to the second?
-  pure logical function is_between(skin, e, n, t, x, u)
+  !> How far n is inside the arc from the normal of the first facet of an edge along t to the
+  !> second: the smaller sine.
+  pure real(wp) function in_arc(skin, e, n, t, x, u)
     type(skin_t), intent(in) :: skin
     integer, intent(in) :: e
     real(wp), intent(in) :: n(3), t(3)
@@ -170,9 +185,8 @@ contains
     real(wp) :: a(3), b(3)
     a = area_vector(skin, skin%beside(1, e), x, u)
     b = area_vector(skin, skin%beside(2, e), x, u)
-    is_between = dot_product(cross(a, n), t) > clear*norm2(a) .and. &
-        dot_product(cross(n, b), t) > clear*norm2(b)
-  end function is_between
+    in_arc = min(dot_product(cross(a, n), t)/norm2(a), dot_product(cross(n, b), t)/norm2(b))
+  end function in_arc
 
   !> Area vector of a facet at X + U, doubled [L2].
   pure function area_vector(skin, facet, x, u) result(n)

@@ -56,7 +56,7 @@ contains
     type(crossing_t), intent(in) :: crossing
     type(rows_t), intent(inout) :: rows
     call add_row(rows, key, crossing%point, crossing%weight, crossing%normal, crossing%gap, mu, &
-        crossing%length, row_crossing, zero)
+        crossing%length, row_crossing, crossing%allowance)
   end subroutine emit_crossing
 
   !> A place at the end of the step against the rows of its node: too deep, it is a late row, or
@@ -109,7 +109,7 @@ contains
     integer, intent(inout) :: n
     real(wp) :: allowance
     integer :: a, found
-    allowance = share_at_corner*crossing%length
+    allowance = max(crossing%allowance, share_at_corner*crossing%length)
     if (crossing%gap >= -too_deep*allowance .or. n == size(late)) return
     found = 0
     do a = 1, rows%n
@@ -127,7 +127,7 @@ contains
       new%weight(:4) = crossing%weight
       new%normal = crossing%normal
       new%gap = gap_of_points(crossing%point, crossing%weight, crossing%normal, x, u0)
-      new%allowance = zero
+      new%allowance = crossing%allowance
       new%length = crossing%length
       new%kind = row_crossing
     end associate

@@ -9,7 +9,7 @@ module contact_space_gap
   use contact_skin, only: skin_t
   implicit none
   private
-  public :: gap_before, gap_of_nearest
+  public :: gap_before, all_gap, gap_of_nearest
 
 contains
 
@@ -36,6 +36,19 @@ contains
     call gap_of_nearest(skin, x, u, from, nearest, fan, gap)
     facet = nearest%facet
   end subroutine gap_before
+
+  !> The same before all listed facets of a net.
+  pure subroutine all_gap(skin, x, u, from, fan, gap, facet)
+    type(skin_t), intent(in) :: skin
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp), intent(in) :: from(3, 2)
+    type(fan_t), intent(inout) :: fan
+    real(wp), intent(out) :: gap
+    integer, intent(out) :: facet
+    integer :: k
+    call gap_before(skin, pack([(k, k=1, skin%facets)], skin%is_listed), x, u, from, fan, gap, &
+        facet)
+  end subroutine all_gap
 
   !> The gap at the nearest facet, after a look at those that it touches there: the list may not
   !> have had them.

@@ -5,15 +5,15 @@ module contact_space_whole
   use base_kinds, only: wp, zero, one, half
   use contact_fan, only: fan_t
   use contact_pairing, only: overlap_t, note_overlap
+  use contact_pierce, only: pierce
   use contact_sight, only: seen_t, place_of_node
   use contact_skin, only: skin_t
   use contact_space_gap, only: gap_of_nearest
   use contact_space_tree, only: space_tree_t, items_in_box, nearest_facet
   use contact_surface, only: surface_t
-  use linalg_dense, only: cross
   implicit none
   private
-  public :: deepest_node_in_space, deepest_edge_in_space, whole_gap, leave_out_in_space
+  public :: deepest_node_in_space, deepest_edge_in_space, edge_inside
 
 contains
 
@@ -103,97 +103,73 @@ contains
     type(fan_t), intent(inout) :: fan
     type(overlap_t), intent(inout) :: overlap
     logical :: left_out(skin%facets)
-    integer :: list(size(tree%skin_item)), e, n, i, facet
-    real(wp) :: a(3), d(3), low, high, gap, length
+    integer :: e
     left_out = .false.
     do e = 1, own%edges
       if (.not. own%is_listed(own%beside(1, e))) cycle
-      a = x(:, own%ends(1, e)) + u(:, own%ends(1, e))
-      d = (x(:, own%ends(2, e)) + u(:, own%ends(2, e))) - a
-      call items_in_box(tree, min(a, a + d), max(a, a + d), list, n)
-      if (n == 0) cycle
       if (is_self) call leave_out_in_space(skin, own%beside(1, e), leaves_out, left_out)
-      low = one
-      high = zero
-      do i = 1, n
-        if (left_out(list(i))) cycle
-        if (any(skin%node(:, list(i)) == own%ends(1, e)) .or. &
-            any(skin%node(:, list(i)) == own%ends(2, e))) cycle
-        call pierce(skin, list(i), x, u, a, d, low, high)
-      end do
-      if (high <= low) cycle
-      call deepest_between(low, high)
-      length = norm2(d)
-      if (gap < zero) call note_overlap(overlap, -gap, min(skin%size(facet), length), &
-          own%ends(1, e), skin%part_id(facet), .true.)
+      call edge_inside(own, e, skin, tree, x, u, left_out, fan, overlap)
     end do
-  contains
-    !> The distance from the boundary is concave between the two places where it is zero, if
-    !> the obstacle is convex there: the place of its largest value by thirds.
-    subroutine deepest_between(low, high)
-      real(wp), intent(inout) :: low, high
-      integer, parameter :: rounds = 12
-      real(wp) :: g(2)
-      integer :: k
-      do k = 1, rounds
-        g(1) = depth_at(low + (high - low)/3.0_wp)
-        g(2) = depth_at(high - (high - low)/3.0_wp)
-        if (g(1) < g(2)) then
-          high = high - (high - low)/3.0_wp
-        else
-          low = low + (high - low)/3.0_wp
-        end if
-      end do
-      gap = depth_at(half*(low + high))
-    end subroutine deepest_between
-    real(wp) function depth_at(t)
-      real(wp), intent(in) :: t
-      real(wp) :: from(3, 2)
-      from(:, 1) = a + t*d
-      from(:, 2) = zero
-      call whole_gap(skin, tree, x, u, from, left_out, fan, depth_at, facet)
-    end function depth_at
   end subroutine deepest_edge_in_space
 
-  !> Where the segment a + t d, 0 < t < 1, goes through a facet: low and high are the first and
-  !> the last such t. A quadrilateral is four triangles about its middle.
-  pure subroutine pierce(skin, facet, x, u, a, d, low, high)
+  !> The same of one edge.
+  subroutine edge_inside(own, e, skin, tree, x, u, left_out, fan, overlap)
+    type(skin_t), intent(in) :: own, skin
+    integer, intent(in) :: e
+    type(space_tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    logical, intent(in) :: left_out(:)
+    type(fan_t), intent(inout) :: fan
+    type(overlap_t), intent(inout) :: overlap
+    integer :: list(size(tree%skin_item)), n, i, facet
+    real(wp) :: a(3), d(3), low, high, gap
+    a = x(:, own%ends(1, e)) + u(:, own%ends(1, e))
+    d = (x(:, own%ends(2, e)) + u(:, own%ends(2, e))) - a
+    call items_in_box(tree, min(a, a + d), max(a, a + d), list, n)
+    low = one
+    high = zero
+    do i = 1, n
+      if (left_out(list(i))) cycle
+      if (any(skin%node(:, list(i)) == own%ends(1, e)) .or. &
+          any(skin%node(:, list(i)) == own%ends(2, e))) cycle
+      call pierce(skin, list(i), x, u, a, d, low, high)
+    end do
+    if (high <= low) return
+    call deepest_between(skin, tree, x, u, a, d, left_out, low, high, fan, gap, facet)
+    if (gap < zero) call note_overlap(overlap, -gap, min(skin%size(facet), norm2(d)), &
+        own%ends(1, e), skin%part_id(facet), .true.)
+  end subroutine edge_inside
+
+  !> The distance from the boundary along a + t d is concave between two places where it is zero,
+  !> if the obstacle is convex there: its largest value by thirds.
+  subroutine deepest_between(skin, tree, x, u, a, d, left_out, low, high, fan, gap, facet)
     type(skin_t), intent(in) :: skin
-    integer, intent(in) :: facet
+    type(space_tree_t), intent(in) :: tree
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     real(wp), intent(in) :: a(3), d(3)
+    logical, intent(in) :: left_out(:)
     real(wp), intent(inout) :: low, high
-    real(wp) :: c(3, 4), middle(3)
-    integer :: k, m
-    m = skin%corners(facet)
-    do k = 1, m
-      c(:, k) = (x(:, skin%node(k, facet)) + u(:, skin%node(k, facet))) - a
+    type(fan_t), intent(inout) :: fan
+    real(wp), intent(out) :: gap
+    integer, intent(out) :: facet
+    integer, parameter :: rounds = 12
+    real(wp) :: from(3, 2), g(2), third
+    integer :: k
+    from = zero
+    do k = 1, rounds
+      third = (high - low)/3.0_wp
+      from(:, 1) = a + (low + third)*d
+      call whole_gap(skin, tree, x, u, from, left_out, fan, g(1), facet)
+      from(:, 1) = a + (high - third)*d
+      call whole_gap(skin, tree, x, u, from, left_out, fan, g(2), facet)
+      if (g(1) < g(2)) then
+        high = high - third
+      else
+        low = low + third
+      end if
     end do
-    if (m == 3) then
-      call pierce_triangle(c(:, 1), c(:, 2), c(:, 3), d, low, high)
-      return
-    end if
-    middle = sum(c, dim=2)/m
-    do k = 1, m
-      call pierce_triangle(c(:, k), c(:, 1 + mod(k, m)), middle, d, low, high)
-    end do
-  end subroutine pierce
-
-  !> The same of a triangle with corners seen from a.
-  pure subroutine pierce_triangle(p, q, r, d, low, high)
-    real(wp), intent(in) :: p(3), q(3), r(3), d(3)
-    real(wp), intent(inout) :: low, high
-    real(wp) :: n(3), volume(3), t
-    n = cross(q - p, r - p)
-    t = dot_product(n, d)
-    if (.not. abs(t) > epsilon(one)*norm2(n)*norm2(d)) return
-    t = dot_product(n, p)/t
-    if (t <= zero .or. t >= one) return
-    volume = [dot_product(cross(p, q), d), dot_product(cross(q, r), d), &
-        dot_product(cross(r, p), d)]
-    if (any(volume > zero) .and. any(volume < zero)) return
-    low = min(low, t)
-    high = max(high, t)
-  end subroutine pierce_triangle
+    from(:, 1) = a + half*(low + high)*d
+    call whole_gap(skin, tree, x, u, from, left_out, fan, gap, facet)
+  end subroutine deepest_between
 
 end module contact_space_whole

@@ -54,7 +54,8 @@ contains
     call find_rows(model, contact, u, x_free)
     call activate_all(contact)
     call shift_reactions(contact)
-    if (contact%rows%n + contact%spare%n == 0) return
+    ! In space two edges may come to cross within a step that did not at its start.
+    if (contact%rows%n + contact%spare%n == 0 .and. contact%dim == 2) return
     call start_purses(contact)
     do round = 1, most_rounds
       call solve_rows(model, contact, v, x_free, largest, round, force, acting, status)
