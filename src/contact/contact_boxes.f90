@@ -30,7 +30,7 @@ contains
     integer :: n, k
     n = size(low, 2)
     boxes%n = 0
-    middle = half*(low + high)
+    allocate (middle, source=half*(low + high))
     allocate (boxes%item(n), boxes%first(2*n + 1), boxes%last(2*n + 1), boxes%child(2*n + 1))
     allocate (boxes%low(size(low, 1), 2*n + 1), boxes%high(size(low, 1), 2*n + 1))
     boxes%item = [(k, k=1, n)]

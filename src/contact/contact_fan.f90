@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The fan of facets round a vertex of a body in space: the normals of the facets, the edges that
-!> leave it, the mean normal weighted by the angles there, whose sign tells inside from outside
-!> (Baerentzen and Aanaes 2005).
+!> The fan of facets round a vertex of a body in space: the normals of the facets, the edges
+!> that leave it, the mean normal weighted by the angles there, whose sign tells inside from
+!> outside (Baerentzen and Aanaes 2005).
 module contact_fan
   use base_kinds, only: wp, zero, one
   use contact_sight, only: from_node

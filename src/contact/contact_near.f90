@@ -83,6 +83,7 @@ contains
     call keep_memory(old, near)
   end subroutine list_near
 
+  !> An empty list for a side of so many nodes.
   pure subroutine start_list(nodes, near)
     integer, intent(in) :: nodes
     type(near_t), intent(inout) :: near
@@ -92,6 +93,7 @@ contains
     near%first(1) = 1
   end subroutine start_list
 
+  !> One more node, row k of its side, with its edges or facets.
   subroutine add_node(k, edges, near)
     integer, intent(in) :: k, edges(:)
     type(near_t), intent(inout) :: near

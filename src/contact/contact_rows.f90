@@ -45,7 +45,8 @@ module contact_rows
 
   !> What makes a row: an edge, a vertex, the second minimum of a node's distance, a wall, a
   !> wall that slides along its normal, which no tangential force moves, the multiplier of a
-  !> mortar, an edge across an edge; late rows come when the solved step has shown that they are missing.
+  !> mortar, an edge across an edge; late rows come when the solved step has shown that they are
+  !> missing.
   integer, parameter, public :: row_edge = 1, row_vertex = 2, row_second = 3, row_wall = 4, &
       row_guided = 5, row_mortar = 6, row_crossing = 7, row_kinds = 7
 

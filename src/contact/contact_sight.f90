@@ -31,7 +31,7 @@ module contact_sight
   !> A normal nearer than this to that of the reference is taken to be it (contact_features).
   real(wp), parameter :: same_normal = 1.0e-10_wp
 
-  public :: see_facet, place_of_node, from_node, end_of_edge, distance_2
+  public :: see_facet, place_of_node, from_node, end_of_edge, distance_2, area_vector
 
 contains
 
@@ -152,5 +152,20 @@ contains
     if (s >= one - end_tolerance) s = one
     y = a + s*t
   end subroutine end_of_edge
+
+  !> Area vector of a facet at X + U, doubled [L2].
+  pure function area_vector(skin, facet, x, u) result(n)
+    type(skin_t), intent(in) :: skin
+    integer, intent(in) :: facet
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp) :: n(3)
+    associate (k => skin%node(:, facet))
+      if (k(4) > 0) then
+        n = cross(from_node(x, u, k(1), k(3)), from_node(x, u, k(2), k(4)))
+      else
+        n = cross(from_node(x, u, k(1), k(2)), from_node(x, u, k(1), k(3)))
+      end if
+    end associate
+  end function area_vector
 
 end module contact_sight

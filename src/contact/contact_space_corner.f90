@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Normals at a convex edge or vertex in space: planes that keep the obstacle's feature and a node
-!> before it apart. Their normals are those of facets of the obstacle that the node faces, and
-!> those of the node's own facets, reversed, that the obstacle stays behind. The space outside is
-!> a union of half-spaces, so that the motion of the node decides (contact_corner).
+!> Normals at a convex edge or vertex in space: planes that keep the obstacle's feature and a
+!> node before it apart. Their normals are those of facets of the obstacle that the node faces,
+!> and those of the node's own facets, reversed, that the obstacle stays behind. The space
+!> outside is a union of half-spaces, so that the motion of the node decides (contact_corner).
 module contact_space_corner
   use base_kinds, only: wp, zero
   use contact_corner, only: instant_of_leaving, never
@@ -19,8 +19,8 @@ module contact_space_corner
 
 contains
 
-  !> Normals that a feature with facets `facet` and directions `direction` (3, *) within the body
-  !> has in common with a node's fan, the first n.
+  !> Normals that a feature with facets `facet` and directions `direction` (3, *) within the
+  !> body has in common with a node's fan, the first n.
   pure subroutine common_normals(facet, direction, fan, normal, n)
     real(wp), intent(in) :: facet(:, :), direction(:, :)
     type(fan_t), intent(in) :: fan
@@ -108,9 +108,9 @@ contains
     end do
   end function spread_of
 
-  !> Of the normals that whose half-space n.(y + f) >= 0 the free motion f leaves least; where it
-  !> leaves all by more than `enough`, last. The mean of those that tie. y: the node from the
-  !> feature [L].
+  !> Of the normals that whose half-space n.(y + f) >= 0 the free motion f leaves least; where
+  !> it leaves all by more than `enough`, last. The mean of those that tie. y: the node from
+  !> the feature [L].
   pure subroutine choose_of(normal, y, f, enough, length, n)
     real(wp), intent(in) :: normal(:, :), y(3), f(3), enough, length
     real(wp), intent(out) :: n(3)

@@ -1,15 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Sharp edges that cross: what nodes miss. Of random encounters of cubes half begin so. The row of
-!> a pair has weights 1 - s, s, -(1 - t), -t at the points that are nearest to each other, and the
-!> normal e_A x e_B, out of the obstacle. It stands where both points are inside their edges and
-!> the arc of normals of the one edge crosses that of the other, reversed.
+!> Sharp edges that cross: what nodes miss. Of random encounters of cubes half begin so. The
+!> row of a pair has weights 1 - s, s, -(1 - t), -t at the points that are nearest to each
+!> other, and the normal e_A x e_B, out of the obstacle. It stands where both points are inside
+!> their edges and the arc of normals of the one edge crosses that of the other, reversed.
 module contact_space_edges
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one
   use base_sort, only: sort_order
   use contact_pierce, only: pierces_edge
   use contact_places, only: share_of_edge
-  use contact_sight, only: from_node
+  use contact_sight, only: from_node, area_vector
   use contact_skin, only: skin_t
   use contact_space_tree, only: space_tree_t, items_in_box
   use linalg_dense, only: cross
@@ -36,8 +36,8 @@ module contact_space_edges
   real(wp), parameter :: inside = 1.0e-8_wp     !< shares of an edge
   real(wp), parameter :: parallel = 1.0e-6_wp   !< squared sine
   !> Radians by which the arcs cross. Where they do so by less, or miss each other by less than
-  !> the second, one body lies with a face on the other: nodes see most of that, and the crossing
-  !> has their allowance.
+  !> the second, one body lies with a face on the other: nodes see most of that, and the
+  !> crossing has their allowance.
   real(wp), parameter :: clear = 1.0e-3_wp, missed = 2.0e-2_wp
   !> Shares of an edge: a deeper one is not before it.
   real(wp), parameter :: deepest = 0.1_wp
@@ -49,9 +49,10 @@ module contact_space_edges
 
 contains
 
-  !> The pairs of sharp edges nearer than reach [L], of edges in the tree of the own net and that
-  !> of the obstacle, both at X + U. is_self: both are one net; edges that share a node or a facet
-  !> are no pair. leaves_out (parts, parts): pairs of parts that do not touch; or empty.
+  !> The pairs of sharp edges nearer than reach [L], of edges in the tree of the own net and
+  !> that of the obstacle, both at X + U. is_self: both are one net; edges that share a node or
+  !> a facet are no pair. leaves_out (parts, parts): pairs of parts that do not touch; or
+  !> empty.
   subroutine list_edge_pairs(own, obstacle, own_tree, tree, reach, is_self, leaves_out, pairs)
     type(skin_t), intent(in) :: own, obstacle
     type(space_tree_t), intent(in) :: own_tree, tree
@@ -187,21 +188,6 @@ contains
     b = area_vector(skin, skin%beside(2, e), x, u)
     in_arc = min(dot_product(cross(a, n), t)/norm2(a), dot_product(cross(n, b), t)/norm2(b))
   end function in_arc
-
-  !> Area vector of a facet at X + U, doubled [L2].
-  pure function area_vector(skin, facet, x, u) result(n)
-    type(skin_t), intent(in) :: skin
-    integer, intent(in) :: facet
-    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
-    real(wp) :: n(3)
-    associate (k => skin%node(:, facet))
-      if (k(4) > 0) then
-        n = cross(from_node(x, u, k(1), k(3)), from_node(x, u, k(2), k(4)))
-      else
-        n = cross(from_node(x, u, k(1), k(2)), from_node(x, u, k(1), k(3)))
-      end if
-    end associate
-  end function area_vector
 
   !> Saves the list to the archive or restores it.
   subroutine exchange_edge_pairs(archive, pairs)

@@ -10,7 +10,7 @@ module contact_space_emit
   use contact_rows, only: rows_t, add_row, row_edge, row_vertex, row_second, row_crossing
   use contact_sight, only: from_node
   use contact_space_edges, only: crossing_t
-  use contact_space_places, only: space_place_t
+  use contact_space_view, only: space_place_t
   implicit none
   private
   public :: emit_place, emit_crossing, judge_late_place, judge_late_crossing
@@ -27,7 +27,8 @@ contains
     call weights_of(place, weight)
     call add_row(rows, [number, place%side, place%node, place%key], &
         [place%node, place%point(:place%points)], weight(:place%points + 1), place%normal, &
-        place%gap, mu, place%length, kind_of(place), merge(zero, place%allowance, place%is_exact))
+        place%gap, mu, place%length, kind_of(place), &
+        merge(zero, place%allowance, place%is_exact))
     rows%is_twin(rows%n) = place%is_twin
   end subroutine emit_place
 
@@ -55,8 +56,8 @@ contains
     real(wp), intent(in) :: mu
     type(crossing_t), intent(in) :: crossing
     type(rows_t), intent(inout) :: rows
-    call add_row(rows, key, crossing%point, crossing%weight, crossing%normal, crossing%gap, mu, &
-        crossing%length, row_crossing, crossing%allowance)
+    call add_row(rows, key, crossing%point, crossing%weight, crossing%normal, crossing%gap, &
+        mu, crossing%length, row_crossing, crossing%allowance)
   end subroutine emit_crossing
 
   !> A place at the end of the step against the rows of its node: too deep, it is a late row, or

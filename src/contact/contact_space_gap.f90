@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The true gap of a node before a boundary in space: the distance of the nearest point, negative
-!> inside. Its sign is that of the normal of the facet, of the mean of two facets at an edge, of
-!> the angle-weighted mean at a vertex.
+!> The true gap of a node before a boundary in space: the distance of the nearest point,
+!> negative inside. Its sign is that of the normal of the facet, of the mean of two facets at
+!> an edge, of the angle-weighted mean at a vertex.
 module contact_space_gap
   use base_kinds, only: wp, zero, one
   use contact_fan, only: fan_t, open_fan
@@ -13,8 +13,8 @@ module contact_space_gap
 
 contains
 
-  !> Gap of a place (3, 2) before the facets of a list [L], and the nearest of them and of those that
-  !> are next to it; huge and 0 for an empty list.
+  !> Gap of a place (3, 2) before the facets of a list [L], and the nearest of them and of
+  !> those that are next to it; huge and 0 for an empty list.
   pure subroutine gap_before(skin, list, x, u, from, fan, gap, facet)
     type(skin_t), intent(in) :: skin
     integer, intent(in) :: list(:)
@@ -107,7 +107,8 @@ contains
     nearest = best
   end subroutine walk_on
 
-  !> A facet (0: none) other than `known`: its normal to the sum, and is it nearer than the best?
+  !> A facet (0: none) other than `known`: its normal to the sum, and is it nearer than the
+  !> best?
   pure subroutine look(skin, facet, x, u, from, known, best, n, is_nearest)
     type(skin_t), intent(in) :: skin
     integer, intent(in) :: facet, known

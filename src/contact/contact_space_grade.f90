@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which places in space get exact rows and which an allowance: as in the plane (contact_grade)
-!> the nodes of the locally finer side are exact, and sharp vertices; of two nodes that meet each
-!> other one.
+!> the nodes of the locally finer side are exact, and sharp vertices; of two nodes that meet
+!> each other one.
 module contact_space_grade
   use base_kinds, only: wp, zero, one
   use contact_fan, only: fan_t
@@ -9,15 +9,15 @@ module contact_space_grade
   use contact_grade, only: finer_auto, finer_both, equal_size, cosine_of_flat, twin, sharper
   use contact_sight, only: from_node
   use contact_skin, only: skin_t
-  use contact_space_places, only: space_place_t
+  use contact_space_view, only: space_place_t
   implicit none
   private
   public :: grade_in_space, settle_in_space
 
 contains
 
-  !> Grade of a place of a node of `own` with this fan. finer: the side whose nodes are exact, by
-  !> the deck (finer_auto: by their sizes).
+  !> Grade of a place of a node of `own` with this fan. finer: the side whose nodes are exact,
+  !> by the deck (finer_auto: by their sizes).
   pure subroutine grade_in_space(own, obstacle, is_self, finer, fan, place)
     type(skin_t), intent(in) :: own, obstacle
     logical, intent(in) :: is_self
@@ -48,8 +48,8 @@ contains
     if (skin%at(node) > 0) part_of = skin%part_id(skin%facet(skin%first_facet(skin%at(node))))
   end function part_of
 
-  !> A corner whose own face lies on the facet, no smaller than the facet: the finer nodes of the
-  !> other side stand within reach of it.
+  !> A corner whose own face lies on the facet, no smaller than the facet: the finer nodes of
+  !> the other side stand within reach of it.
   pure logical function lies_flat(fan, place)
     type(fan_t), intent(in) :: fan
     type(space_place_t), intent(in) :: place
@@ -62,11 +62,11 @@ contains
     end do
   end function lies_flat
 
-  !> Two nodes that meet each other: the sharper one stays, then that of the smaller facets, then
-  !> SURFA's; its normal is the mean of the two, so that a mirrored scene is mirrored. The other
-  !> keeps an allowance. Of several places of a node the most opposite one counts. The first
-  !> n_first places are of side 1, sorted by node, the others of side 2; within one surface all
-  !> are of side 1. first (nodes): scratch, zero.
+  !> Two nodes that meet each other: the sharper one stays, then that of the smaller facets,
+  !> then SURFA's; its normal is the mean of the two, so that a mirrored scene is mirrored. The
+  !> other keeps an allowance. Of several places of a node the most opposite one counts. The
+  !> first n_first places are of side 1, sorted by node, the others of side 2; within one
+  !> surface all are of side 1. first (nodes): scratch, zero.
   pure subroutine settle_in_space(skin_1, skin_2, is_self, finer, x, u, place, n_first, first)
     type(skin_t), intent(in) :: skin_1, skin_2
     logical, intent(in) :: is_self

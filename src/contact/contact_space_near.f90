@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Verlet lists in space: which facets of an obstacle each node of a side may meet soon, and which
-!> nodes of the model the rows on them may involve.
+!> Verlet lists in space: which facets of an obstacle each node of a side may meet soon, and
+!> which nodes of the model the rows on them may involve.
 module contact_space_near
   use base_kinds, only: wp, one
   use contact_fan, only: fan_t, open_fan, faces_fan
@@ -20,11 +20,10 @@ module contact_space_near
 
 contains
 
-  !> Lists for every node of a side the facets of the obstacle that are nearer than reach [L] and
-  !> may come to face it. turned: some facet is near but does not face, so that turning may bring
-  !> it on.
+  !> Lists for every node of a side the facets of the obstacle that are nearer than reach [L]
+  !> and may come to face it.
   subroutine list_near_in_space(own, own_skin, skin, tree, x, u, reach, may_share, leaves_out, &
-      fan, near, turned)
+      fan, near)
     type(surface_t), intent(in) :: own
     type(skin_t), intent(in) :: own_skin, skin
     type(space_tree_t), intent(in) :: tree
@@ -33,14 +32,12 @@ contains
     logical, intent(in) :: may_share, leaves_out(:, :)
     type(fan_t), intent(inout) :: fan
     type(near_t), intent(inout) :: near
-    logical, intent(out) :: turned
     type(near_t) :: old
     type(seen_t) :: seen
     integer :: found(size(tree%skin_item)), k, n, m, i
     real(wp) :: p(3)
     old = near
     call start_list(size(own%node), near)
-    turned = .false.
     do k = 1, size(own%node)
       associate (node => own%node(k))
         p = x(:, node) + u(:, node)
@@ -52,10 +49,7 @@ contains
           if (is_left_out(own_skin, skin, node, found(i), may_share, leaves_out)) cycle
           call see_facet(skin, found(i), x, u, place_of_node(x, u, node), .false., seen)
           if (distance_2(seen) > reach**2) cycle
-          if (.not. faces_fan(seen%normal, fan, sin(listing_angle))) then
-            turned = .true.
-            cycle
-          end if
+          if (.not. faces_fan(seen%normal, fan, sin(listing_angle))) cycle
           m = m + 1
           found(m) = found(i)
         end do
@@ -88,9 +82,10 @@ contains
     end associate
   end function is_left_out
 
-  !> Marks near nodes of a side and the nodes of their facets with one more facet beyond each edge
-  !> that is not sharp, so that sliding does not outgrow the interface at once. All other nodes of
-  !> facets next to these are carried along with one that they share an edge or a facet with.
+  !> Marks near nodes of a side and the nodes of their facets with one more facet beyond each
+  !> edge that is not sharp, so that sliding does not outgrow the interface at once. All other
+  !> nodes of facets next to these are carried along with one that they share an edge or a
+  !> facet with.
   pure subroutine mark_near_in_space(own, own_skin, skin, near, taken, carrier)
     type(surface_t), intent(in) :: own
     type(skin_t), intent(in) :: own_skin, skin

@@ -1,12 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Trees of boxes over the facets of a net and over its sharp edges: what lies near a point or in
-!> a box, the nearest facet of a point, how far two nets are apart at least.
+!> Trees of boxes over the facets of a net and over its sharp edges: what lies near a point or
+!> in a box, the nearest facet of a point, how far two nets are apart at least.
 module contact_space_tree
   use base_kinds, only: wp, zero, one
   use contact_boxes, only: boxes_t, build_boxes, refit_boxes, push_children, box_distance_2, &
       deepest_stack
-  use contact_sight, only: seen_t, see_facet, distance_2
-  use contact_skin, only: skin_t, sharp_edge
+  use contact_features, only: degree
+  use contact_sight, only: seen_t, see_facet, distance_2, from_node, area_vector
+  use contact_skin, only: skin_t, sharp_edge, dihedral
   implicit none
   private
 
@@ -16,6 +17,9 @@ module contact_space_tree
     integer, allocatable :: skin_item(:)
     real(wp), allocatable :: low(:, :), high(:, :)   !< (3, items) [L]
   end type space_tree_t
+
+  !> An edge of a smooth surface that is bent by more than this is one that may touch first.
+  real(wp), parameter :: bent_edge = 5.0_wp*degree
 
   public :: place_facets, place_edges, items_in_box, nearest_facet, least_distance
 
@@ -38,13 +42,24 @@ contains
     call fit(tree)
   end subroutine place_facets
 
-  !> The sharp edges of a net that have a listed facet, at X + U.
+  !> The sharp edges of a net that have a listed facet, at X + U: sharp by the mesh, or as they
+  !> are now. They may be others than the last time.
   subroutine place_edges(skin, x, u, tree)
     type(skin_t), intent(in) :: skin
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(space_tree_t), intent(inout) :: tree
+    integer, allocatable :: list(:)
+    logical :: is_same
     integer :: k
-    if (.not. allocated(tree%skin_item)) tree%skin_item = sharp_edges(skin)
+    allocate (list, source=sharp_edges(skin, x, u))
+    is_same = allocated(tree%skin_item)
+    if (is_same) is_same = size(list) == size(tree%skin_item)
+    if (is_same) is_same = all(list == tree%skin_item)
+    if (.not. is_same) then
+      if (allocated(tree%low)) deallocate (tree%low, tree%high)
+      tree%boxes = boxes_t()
+      call move_alloc(list, tree%skin_item)
+    end if
     call start_boxes(tree)
     do k = 1, size(tree%skin_item)
       call enclose(skin%ends(:, tree%skin_item(k)), x, u, tree%low(:, k), tree%high(:, k))
@@ -52,17 +67,31 @@ contains
     call fit(tree)
   end subroutine place_edges
 
-  function sharp_edges(skin) result(list)
+  function sharp_edges(skin, x, u) result(list)
     type(skin_t), intent(in) :: skin
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     integer, allocatable :: list(:)
     logical :: counts(skin%edges)
     integer :: e, k
     do e = 1, skin%edges
-      counts(e) = skin%turn(e) > sharp_edge .and. skin%beside(2, e) > 0
+      counts(e) = skin%beside(2, e) > 0
       if (counts(e)) counts(e) = any(skin%is_listed(skin%beside(:, e)))
+      if (counts(e) .and. skin%turn(e) <= sharp_edge) &
+          counts(e) = turn_now(skin, e, x, u) > bent_edge
     end do
     list = pack([(k, k=1, skin%edges)], counts)
   end function sharp_edges
+
+  !> The angle between the facets of an edge as they are.
+  pure real(wp) function turn_now(skin, e, x, u)
+    type(skin_t), intent(in) :: skin
+    integer, intent(in) :: e
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp) :: t(3)
+    t = from_node(x, u, skin%ends(1, e), skin%ends(2, e))
+    turn_now = dihedral(area_vector(skin, skin%beside(1, e), x, u), &
+        area_vector(skin, skin%beside(2, e), x, u), t/max(norm2(t), tiny(one)))
+  end function turn_now
 
   subroutine start_boxes(tree)
     type(space_tree_t), intent(inout) :: tree
@@ -160,8 +189,8 @@ contains
     end do
   end subroutine nearest_facet
 
-  !> No two points of two trees are nearer to each other than this [L], if it is less than limit:
-  !> the distance of their boxes.
+  !> No two points of two trees are nearer to each other than this [L], if it is less than
+  !> limit: the distance of their boxes.
   real(wp) function least_distance(a, b, limit)
     type(space_tree_t), intent(in) :: a, b
     real(wp), intent(in) :: limit

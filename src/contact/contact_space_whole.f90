@@ -46,8 +46,8 @@ contains
         leaves_out(skin%part(facet), skin%part)
   end subroutine leave_out_in_space
 
-  !> The deepest node of `own` inside the closed obstacle at X + U. is_self: both are one surface
-  !> of several bodies; each node asks for the others.
+  !> The deepest node of `own` inside the closed obstacle at X + U. is_self: both are one
+  !> surface of several bodies; each node asks for the others.
   subroutine deepest_node_in_space(own, own_skin, skin, tree, x, u, is_self, leaves_out, fan, &
       overlap)
     type(surface_t), intent(in) :: own
@@ -140,8 +140,8 @@ contains
         own%ends(1, e), skin%part_id(facet), .true.)
   end subroutine edge_inside
 
-  !> The distance from the boundary along a + t d is concave between two places where it is zero,
-  !> if the obstacle is convex there: its largest value by thirds.
+  !> The distance from the boundary along a + t d is concave between two places where it is
+  !> zero, if the obstacle is convex there: its largest value by thirds.
   subroutine deepest_between(skin, tree, x, u, a, d, left_out, low, high, fan, gap, facet)
     type(skin_t), intent(in) :: skin
     type(space_tree_t), intent(in) :: tree

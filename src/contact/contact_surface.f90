@@ -99,8 +99,8 @@ contains
     surface%body = body(surface%end_node(1, :))
   end subroutine make_surface
 
-  !> The same in space: the facets of parts or segments with their nodes, or nodes with the facets
-  !> all of whose corners are among them.
+  !> The same in space: the facets of parts or segments with their nodes, or nodes with the
+  !> facets all of whose corners are among them.
   subroutine make_space_surface(model, kind, row, surface, parts)
     type(model_t), intent(in) :: model
     integer, intent(in) :: kind, row

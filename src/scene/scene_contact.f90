@@ -116,8 +116,9 @@ contains
       fits(k) = (index(keyword_of(deck, record(k)), '_2D_') > 0) .eqv. dim == 2
       if (fits(k)) cycle
       if (dim == 3) then
-        call deck%complain(record(k), '', 'a contact of plane bodies, but the model is in space', &
-            'expected *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE, _NODES_TO_SURFACE or _SINGLE_SURFACE')
+        call deck%complain(record(k), '', 'a contact of plane bodies, but the model is in '// &
+            'space', 'expected *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE, _NODES_TO_SURFACE or '// &
+            '_SINGLE_SURFACE')
       else
         call deck%complain(record(k), '', 'a contact in space, but the model is plane', &
             'expected *CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE, _NODE_TO_SURFACE or '// &
