@@ -64,8 +64,13 @@ contains
       call set_card(model, model%contact(p), contact%pairing(p)%item)
     end do
     do p = 1, size(model%wall)
-      call make_pairing(trim(model%wall(p)%shape), &
-          contact%pairing(size(model%contact) + p)%item)
+      associate (slot => contact%pairing(size(model%contact) + p))
+        if (model%dim == 3) then
+          call make_pairing('WALL', slot%item)
+        else
+          call make_pairing(trim(model%wall(p)%shape), slot%item)
+        end if
+      end associate
       call set_wall(model, model%wall(p), contact%pairing(size(model%contact) + p)%item)
     end do
     do p = 1, n
@@ -186,17 +191,30 @@ contains
     type is (pairing_wall_t)
       pairing%point = wall%point(:model%dim)
       pairing%normal = wall%normal(:model%dim)
-      if (model%dim == 3) pairing%one_way = pairing%normal
+      pairing%is_guided = wall%mass > zero
+      if (wall%node > 0) then
+        pairing%body = wall%node
+        call give_node(wall, pairing)
+      else if (model%dim == 3) then
+        pairing%one_way = pairing%normal
+      end if
     class is (obstacle_t)
       pairing%body = wall%node
       pairing%is_mid = any(model%controls%frame == [character(5) :: '', 'MID'])
-      pairing%side(2)%node = [wall%node]
-      pairing%side(2)%index(wall%node) = 1
-      deallocate (pairing%side(2)%chain)
-      allocate (pairing%side(2)%chain(2, 1), source=0)
+      call give_node(wall, pairing)
       call pairing%set_shape(wall)
     end select
   end subroutine set_wall
+
+  !> The second side is the node of the wall.
+  subroutine give_node(wall, pairing)
+    type(wall_t), intent(in) :: wall
+    class(pairing_t), intent(inout) :: pairing
+    pairing%side(2)%node = [wall%node]
+    pairing%side(2)%index(wall%node) = 1
+    deallocate (pairing%side(2)%chain)
+    allocate (pairing%side(2)%chain(2, 1), source=0)
+  end subroutine give_node
 
   !> A second side without nodes and edges.
   pure subroutine empty_side(pairing)

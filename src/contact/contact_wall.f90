@@ -1,13 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The pairing of a rigid plane wall: an analytic surface instead of edges, no degrees of
-!> freedom. Its rows have one point, the node's.
+!> The pairing of a rigid plane wall: an analytic surface instead of edges. It stands still, and
+!> its rows have one point, the node's; or in space it moves with a node of its own, which is
+!> held, or whose motion is given, or that has a mass.
 module contact_wall
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero, one, half
   use contact_facets, only: corners_of
   use contact_near, only: near_t, exchange_near
   use contact_pairing, only: pairing_t, overlap_t, late_t, note_overlap
-  use contact_rows, only: rows_t, add_row, renew_gap, row_wall
+  use contact_rows, only: rows_t, add_row, renew_gap, row_wall, row_guided
   use model_data, only: model_t
   implicit none
   private
@@ -15,6 +16,8 @@ module contact_wall
   type, extends(pairing_t), public :: pairing_wall_t
     real(wp), allocatable :: point(:)   !< on it [L]
     real(wp), allocatable :: normal(:)  !< toward the bodies
+    integer :: body = 0                 !< its node; 0 = it stands still
+    logical :: is_guided = .false.      !< slides along its normal, which alone moves it
     type(near_t) :: near
     real(wp), allocatable :: gap(:)     !< of the near nodes [L]
     logical :: is_new = .true.          !< the list is another one than in the last step
@@ -40,6 +43,7 @@ contains
     integer, intent(in) :: node
     wall_distance = dot_product(this%normal, x(:, node) - this%point) &
         + dot_product(this%normal, u(:, node))
+    if (this%body > 0) wall_distance = wall_distance - dot_product(this%normal, u(:, this%body))
   end function wall_distance
 
   !> The nodes nearer than half an edge, or four steps of their motion.
@@ -76,6 +80,7 @@ contains
     logical, intent(inout) :: taken(:)
     integer, intent(inout) :: carrier(:)
     taken(this%side(1)%node(this%near%node(:this%near%n))) = .true.
+    if (this%body > 0 .and. this%near%n > 0) taken(this%body) = .true.
   end subroutine wall_mark_interface
 
   !> Nodes of the edges or facets that face the wall.
@@ -117,8 +122,14 @@ contains
     integer :: i
     do i = 1, this%near%n
       associate (node => this%side(1)%node(this%near%node(i)))
-        call add_row(rows, [this%number, 1, node, 0], [node], [one], this%normal, &
-            this%gap(i), this%friction%static, edge_length(this), row_wall, zero)
+        if (this%body == 0) then
+          call add_row(rows, [this%number, 1, node, 0], [node], [one], this%normal, &
+              this%gap(i), this%friction%static, edge_length(this), row_wall, zero)
+        else
+          call add_row(rows, [this%number, 1, node, 0], [node, this%body], [one, -one], &
+              this%normal, this%gap(i), this%friction%static, edge_length(this), &
+              merge(row_guided, row_wall, this%is_guided), zero)
+        end if
       end associate
     end do
   end subroutine wall_append_rows

@@ -108,7 +108,7 @@ contains
     call add_field(table, 'OPT', 'I10 =0 >=0 <=1', '0 velocity, 1 displacement')
     call add_field(table, 'VX', 'R10 =0.0', 'direction of the motion, of any length')
     call add_field(table, 'VY', 'R10 =0.0', 'the same')
-    call add_field(table, 'VZ', 'R10 fixed', 'the model is plane')
+    call add_field(table, 'VZ', 'R10 space =0.0', 'the same')
   end subroutine add_motion
 
   subroutine add_mass(table)

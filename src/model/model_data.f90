@@ -133,7 +133,7 @@ module model_data
     logical :: is_interior = .false.!< the bodies are inside
     real(wp) :: mass = 0.0_wp       !< > 0: it slides freely along its normal [M]
     real(wp) :: speed = 0.0_wp      !< at t = 0, along the normal [L/T]
-    real(wp) :: direction(2) = 0.0_wp  !< of a prescribed motion
+    real(wp) :: direction(3) = 0.0_wp  !< of a prescribed motion
     integer :: motion = 0           !< its kind, motion_...
     integer :: curve = 0            !< 0: it stands still
   end type wall_t

@@ -53,9 +53,9 @@ contains
     character(:), allocatable :: name
     integer :: second, third
     name = deck%table%keyword(deck%block(deck%record(record)%block)%keyword)%canonical
-    if (model%dim == 3 .and. name /= 'RIGIDWALL_PLANAR') then
+    if (model%dim == 3 .and. index(name, '_CYLINDER') > 0) then
       call deck%complain(record, '', '*'//trim(name)//' is not available in space in this '// &
-          'version', 'a wall in space is a *RIGIDWALL_PLANAR')
+          'version', 'walls in space are planes')
       return
     end if
     second = deck%follow(record, 2)
@@ -135,6 +135,11 @@ contains
     wall%shape = 'FLAT'
     wall%length = deck%real(third, 'LENL')
     if (.not. wall%length > zero) return
+    if (deck%in_space) then
+      call deck%complain(third, 'LENL', 'a wall with ends is not available in space in this '// &
+          'version', 'LENL 0 is a plane without ends')
+      return
+    end if
     if (abs(deck%real(third, 'ZHEV') - deck%real(second, 'ZT')) > zero) call deck%complain( &
         third, 'ZHEV', 'expected the value of ZT: the length of the wall lies in the plane')
     wall%along = [deck%real(third, 'XHEV'), deck%real(third, 'YHEV')] - wall%point(:2)
@@ -171,8 +176,8 @@ contains
     type(wall_t), intent(inout) :: wall
     wall%curve = curve_of(deck, model, maps, record)
     wall%motion = merge(motion_displacement, motion_velocity, deck%integer(record, 'OPT') == 1)
-    wall%direction = [deck%real(record, 'VX'), deck%real(record, 'VY')]
-    call make_unit(deck, record, 'VX', 'expected a direction: VX, VY are both zero', &
+    wall%direction = [deck%real(record, 'VX'), deck%real(record, 'VY'), deck%real(record, 'VZ')]
+    call make_unit(deck, record, 'VX', 'expected a direction: all its components are zero', &
         wall%direction)
     if (wall%curve == 0 .or. wall%motion /= motion_displacement) return
     if (abs(curve_value(model%curve(wall%curve), zero)) > zero) call deck%complain(record, &
@@ -188,9 +193,11 @@ contains
     if (n == 0) return
     model%bodies = n
     model%node_id = [model%node_id, [(0, k=1, n)]]
-    model%x = reshape([model%x, [(zero, k=1, 2*n)]], [2, model%nodes + n])
-    model%v0 = reshape([model%v0, [(zero, k=1, 2*n)]], [2, model%nodes + n])
-    model%fixed = reshape([model%fixed, [(.true., k=1, 2*n)]], [2, model%nodes + n])
+    associate (dim => model%dim, m => model%nodes + n)
+      model%x = reshape([model%x, [(zero, k=1, dim*n)]], [dim, m])
+      model%v0 = reshape([model%v0, [(zero, k=1, dim*n)]], [dim, m])
+      model%fixed = reshape([model%fixed, [(.true., k=1, dim*n)]], [dim, m])
+    end associate
     do k = 1, size(model%wall)
       if (model%wall(k)%shape == 'WALL') cycle
       model%nodes = model%nodes + 1
@@ -214,12 +221,12 @@ contains
     if (wall%curve == 0) return
     speed = curve_slope(model%curve(wall%curve), zero)
     if (wall%motion == motion_velocity) speed = curve_value(model%curve(wall%curve), zero)
-    model%v0(:, wall%node) = speed*wall%direction
+    model%v0(:, wall%node) = speed*wall%direction(:model%dim)
     motion%node = [wall%node]
     motion%kind = wall%motion
     motion%curve = wall%curve
     motion%record = wall%record
-    do d = 1, 2
+    do d = 1, model%dim
       if (.not. abs(wall%direction(d)) > zero) cycle
       motion%direction = d
       motion%factor = wall%direction(d)
