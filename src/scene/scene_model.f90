@@ -20,6 +20,7 @@ module scene_model
   use scene_mass, only: check_mass
   use scene_parts, only: read_materials, read_parts
   use scene_rigid, only: read_rigid_parts
+  use scene_rigid_space, only: read_rigid_in_space
   use scene_sets, only: read_sets
   use scene_explicit, only: find_step
   use scene_walls, only: read_walls, add_bodies
@@ -63,7 +64,13 @@ contains
       call read_walls(deck, model, maps)
       call read_requests(deck, model, maps)
       call read_storage(deck, model, maps)
-      if (deck%problems%count == 0) call read_rigid_parts(deck, model, maps)
+      if (deck%problems%count == 0) then
+        if (deck%in_space) then
+          call read_rigid_in_space(deck, model, maps)
+        else
+          call read_rigid_parts(deck, model, maps)
+        end if
+      end if
     end if
     if (deck%problems%count == 0) call add_bodies(model)
     if (deck%problems%count > 0) call fail(status, status_deck, problem_count(deck)// &

@@ -103,8 +103,6 @@ contains
         if (p%material == 0) call deck%complain(record(k), 'MID', 'material '// &
             to_text(p%material_id)//' is not defined', 'add a *MAT_ELASTIC with this number')
         if (p%material > 0) p%is_rigid = model%material(p%material)%item%is_rigid
-        if (p%is_rigid .and. deck%in_space) call deck%complain(record(k), 'MID', &
-            '*MAT_RIGID is not available in space in this version')
       end associate
     end do
     call make_id_map(deck, 'part', 'PID', model%part%id, record, maps%part)

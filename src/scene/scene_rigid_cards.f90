@@ -23,8 +23,14 @@ module scene_rigid_cards
     integer, allocatable :: node(:)
   end type body_t
 
-  public :: read_constraints, read_velocities, read_forces, read_rigid_motions
+  public :: read_constraints, read_velocities, read_forces, read_rigid_motions, check_motion, &
+      start_motion
 
+  !> Directions x, y, z that CON1 or CON2 1 to 7 hold.
+  logical, parameter, public :: holds(3, 0:7) = reshape([.false., .false., .false., &
+      .true., .false., .false., .false., .true., .false., .false., .false., .true., &
+      .true., .true., .false., .false., .true., .true., .true., .false., .true., &
+      .true., .true., .true.], [3, 8])
   !> DOF of a rotation about z.
   integer, parameter :: about_z = 7
 
@@ -35,11 +41,6 @@ contains
     type(deck_t), intent(in) :: deck
     type(model_t), intent(inout) :: model
     type(body_t), intent(in) :: body(:)
-    !> Directions x, y, z that 1 to 7 hold.
-    logical, parameter :: holds(3, 0:7) = reshape([.false., .false., .false., &
-        .true., .false., .false., .false., .true., .false., .false., .false., .true., &
-        .true., .true., .false., .false., .true., .true., .true., .false., .true., &
-        .true., .true., .true.], [3, 8])
     integer, allocatable :: record(:)
     integer :: b, k, r
     call records_of(deck, 'MAT_RIGID', 1, record)
@@ -250,7 +251,8 @@ contains
         'DOF', 'this direction of the part is held by CON1 or CON2 of its *MAT_RIGID')
     do k = 1, size(model%motion)
       associate (other => model%motion(k))
-        if (other%direction /= motion%direction .or. size(other%node) /= 1) cycle
+        if (other%direction /= motion%direction .or. &
+            size(other%node) /= size(motion%node)) cycle
         if (other%node(1) == motion%node(1)) call deck%complain(motion%record, 'DOF', &
             'this direction of the part has a motion already', 'the first is at '// &
             deck%place(other%record))
@@ -258,23 +260,28 @@ contains
     end do
   end subroutine check_motion
 
-  !> The initial velocity of a direction that is moved from the start.
+  !> The initial velocity of a direction that is moved from the start, of all its nodes.
   subroutine start_motion(deck, model, motion)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(motion_t), intent(in) :: motion
     real(wp) :: v
+    integer :: k
     if (motion%birth > zero .or. motion%kind == motion_acceleration) return
     v = motion%factor*curve_value(model%curve(motion%curve), zero)
     if (motion%kind == motion_displacement) &
         v = motion%factor*curve_slope(model%curve(motion%curve), zero)
     if (model%controls%is_static) v = zero
-    associate (v0 => model%v0(motion%direction, motion%node(1)))
-      if (abs(v0) > zero .and. abs(v0 - v) > 1.0e-9_wp*abs(v)) call deck%complain( &
-          motion%record, 'DOF', 'the part has another initial velocity than this motion', &
-          'leave the initial velocity out: the motion gives it')
-      v0 = v
-    end associate
+    do k = 1, size(motion%node)
+      associate (v0 => model%v0(motion%direction, motion%node(k)))
+        if (abs(v0) > zero .and. abs(v0 - v) > 1.0e-9_wp*abs(v)) then
+          call deck%complain(motion%record, 'DOF', 'the part has another initial velocity '// &
+              'than this motion', 'leave the initial velocity out: the motion gives it')
+          return
+        end if
+        v0 = v
+      end associate
+    end do
   end subroutine start_motion
 
 end module scene_rigid_cards
