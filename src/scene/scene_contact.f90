@@ -224,6 +224,11 @@ contains
       if (deck%word(record, 'OVERLAP') == overlaps(k)) card%overlap = k
     end do
     if (card%overlap == overlap_error) return
+    if (model%dim == 3) then
+      call deck%complain(record, 'OVERLAP', 'ADJUST and RAMP are not available in space in '// &
+          'this version', 'expected ERROR or blank')
+      return
+    end if
     if (card%is_self) call deck%complain(record, 'OVERLAP', 'contact '//to_text(card%id)// &
         ' is of a surface with itself, which has no obstacle', 'expected ERROR or blank')
     if (card%overlap == overlap_adjust .and. (card%contactor == 3 .or. any(card%kind == &
