@@ -290,9 +290,9 @@ def judge_shot(seed, share):
 def space_shots():
     """Random encounters of tetrahedra and cubes. In steps of .05 edge nothing is deeper than 1e-2
     edge in silence (3e-2 by this measure, which also counts how far two bodies lean on each other
-    over a bent diagonal), 2 % are warned of or stopped (asked; of 40 at most
-    3 by chance); in steps of .5 edge nothing goes through in silence, deeper than the step. The energy never
-    rises: what purses pay was taken before."""
+    over a bent diagonal), 2 % are warned of or stopped (of 40 at most 3, by chance); in steps of .5
+    edge nothing goes through in silence, deeper than the step. The energy never rises: what purses
+    pay was taken before."""
     for share, count, deepest, most in ((0.05, 40, 3.0e-2, 3), (0.5, 20, 0.5, 20)):
         found = [judge_shot(1000 + seed, share) for seed in range(count)]
         silent = [deep for how, deep, _, _ in found if how == "ran"]
