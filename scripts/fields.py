@@ -5,6 +5,7 @@
     run = Fields("run")
     run.times                  # of all frames, over all files
     run.points, run.cells      # (nodes, 3); corners of each element, counted from 0
+    run.types                  # of the elements, by the numbers of VTK
     run.frame(7, "U")          # values of a field at a frame
 
 On the command line: a summary of the frames and fields of a run.
@@ -48,6 +49,7 @@ class Fields:
         self.points = first["Points"][:]
         ends, corners = first["Offsets"][:], first["Connectivity"][:]
         self.cells = [corners[a:b] for a, b in zip(ends[:-1], ends[1:])]
+        self.types = first["Types"][:]    # of VTK: 5 triangle, 9 quadrilateral, from 10 on solids
         self.names = {n: "Point" for n in first["PointData"]}
         self.names.update({n: "Cell" for n in first["CellData"]})
 

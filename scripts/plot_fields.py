@@ -7,7 +7,8 @@
 
 RUN is the directory of a run with *BIPACT_FIELD. A field is a name, or NAME:component: x, y, z,
 size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL. Displacements are
-magnified by --scale in snapshots and animations. Lines are the boundaries of bodies and parts.
+magnified by --scale in snapshots and animations. Lines are the boundaries of bodies and parts;
+of solids the faces of their surface are drawn.
 Dimensions in brackets: [L] length, [T] time, [F] force; a deck has no other units."""
 
 import argparse
@@ -45,6 +46,7 @@ QUANTITY = {
 STATES = ("no surface", "open", "stick", "slip")  # STATUS -1, 0, 1, 2
 STATE_COLOURS = ("#e8e8e8", "#56B4E9", "#009E73", "#D55E00")
 MOST_ROWS = 8  # of panels over place and time
+FIRST_SOLID = 10  # of the cell types of VTK
 STACK = 0.5  # bodies whose height is less than this times their width: panels below each other
 
 
@@ -82,8 +84,9 @@ def bodies_of(run):
 
 
 def padded(cells):
-    """Corners of the elements (elements, 4); the last of a triangle is there twice."""
-    return np.array([[*c, c[-1]][:4] for c in cells])
+    """Corners of the elements, as many of each: the last is there again where one has fewer."""
+    most = max(4, max(len(c) for c in cells))
+    return np.array([[*c] + [c[-1]] * (most - len(c)) for c in cells])
 
 
 def parts_of(run, folder):
@@ -93,7 +96,9 @@ def parts_of(run, folder):
         return run.frame(0, "PART")
     path = os.path.join(folder, ECHO)
     if os.path.exists(path):
-        parts = [int(f[1]) for (f,) in Deck(path).cards("ELEMENT_SHELL", 1, SHELL)]
+        parts = []
+        if not (run.types >= FIRST_SOLID).any():
+            parts = [int(f[1]) for (f,) in Deck(path).cards("ELEMENT_SHELL", 1, SHELL)]
         if len(parts) == len(run.cells):
             return np.array(parts)
     return bodies_of(run)[[c[0] for c in run.cells]]
@@ -125,9 +130,12 @@ class Picture:
         self.part = part or {"STRESS": "mises", "PRINCIPAL": "1"}.get(name, "size")
         self.label = self.words(self.run.frame(0, name).ndim)
         self.corners = padded(self.run.cells)
-        self.triangle = self.corners[:, 2] == self.corners[:, 3]
+        count = np.array([len(c) for c in self.run.cells])
+        self.repeated = np.arange(self.corners.shape[1]) >= count[:, None]
         self.parts = parts_of(self.run, folder)
-        self.edges = boundary_edges(self.run.cells, self.parts)
+        self.in_space = bool((self.run.types >= FIRST_SOLID).any())
+        if not self.in_space:
+            self.edges = boundary_edges(self.run.cells, self.parts)
 
     def words(self, dimensions):
         """Name of the quantity with its dimension."""
@@ -150,7 +158,7 @@ class Picture:
         if self.name == "STATUS":
             return at_corners.max(axis=1)
         there = ~np.isnan(at_corners)
-        there[self.triangle, 3] = False
+        there[self.repeated] = False
         count = there.sum(axis=1)
         total = np.where(there, at_corners, 0.0).sum(axis=1)
         return np.where(count > 0, total / np.maximum(count, 1), np.nan)
@@ -409,6 +417,14 @@ def main(argv=None):
     path = a.out or os.path.join(a.run, name)
     if a.xt:
         over_place_and_time(picture, path, along=a.along)
+    elif picture.in_space:
+        import plot_space  # takes long to load
+
+        title = title_of(picture, a.scale)
+        if a.animate:
+            plot_space.animation(picture, path, a.scale, title)
+        else:
+            plot_space.snapshots(picture, path, a.scale, title, a.count)
     elif a.animate:
         animation(picture, path, a.scale)
     else:

@@ -18,6 +18,7 @@ module contact_space_base
     integer :: finer = finer_auto        !< side whose nodes are exact, by the deck
     logical :: is_self = .false.         !< side(1) against itself
     logical :: may_share = .false.       !< nodes may belong to both sides
+    logical :: watches_edges = .true.    !< false only in a test, which shows what nodes miss
     logical, allocatable :: leaves_out(:, :)   !< (parts, parts) do not touch; or empty
     type(skin_t) :: skin(2)
     type(space_tree_t) :: facets(2), edges(2)
