@@ -171,7 +171,8 @@ def draw_ball(a):
         3.0,
         "a quarter of a ball on a plate: von Mises stress, displacements x 3",
     )
-    return [(path, "The ball is stressed around the contact alone, and leaves nearly unstressed.")]
+    text = "The ball is stressed around the contact alone, and leaves nearly unstressed."
+    return [(path, text)]
 
 
 def main(argv=None):

@@ -49,7 +49,7 @@ class Fields:
         self.points = first["Points"][:]
         ends, corners = first["Offsets"][:], first["Connectivity"][:]
         self.cells = [corners[a:b] for a, b in zip(ends[:-1], ends[1:])]
-        self.types = first["Types"][:]    # of VTK: 5 triangle, 9 quadrilateral, from 10 on solids
+        self.types = first["Types"][:]  # of VTK: 5 triangle, 9 quadrilateral, from 10 solids
         self.names = {n: "Point" for n in first["PointData"]}
         self.names.update({n: "Cell" for n in first["CellData"]})
 

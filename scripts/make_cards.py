@@ -28,7 +28,10 @@ TRIANGLES = [(12, 2, 102, 103, 113), (13, 2, 102, 113, 112)]
 RIGID_QUADS = [(21, 3, 201, 202, 203, 204), (22, 4, 211, 212, 213, 214)]
 
 # Other names of keywords that stand at most once in a deck.
-OTHER_NAMES = {"DATABASE_GLSTAT_MASS_PROPERTIES"}
+OTHER_NAMES = {
+    "DATABASE_GLSTAT_MASS_PROPERTIES", "CONTACT_SURFACE_TO_SURFACE", "CONTACT_NODES_TO_SURFACE",
+    "CONTACT_SINGLE_SURFACE",
+}
 
 # keyword: its cards, each a dictionary of the fields that are not left blank
 SCENE = (
@@ -225,10 +228,19 @@ IN_SPACE = (
                 for z in (0, 1)
                 for k, (x, y) in enumerate(CORNERS)
             ]
-            + [{"NID": 9, "X": 2.0, "Y": 0.0, "Z": 0.5}, {"NID": 10, "X": 2.0, "Y": 1.0, "Z": 0.5}],
+            + [{"NID": 9, "X": 2.0, "Y": 0.0, "Z": 0.5}, {"NID": 10, "X": 2.0, "Y": 1.0, "Z": 0.5}]
+            + [
+                {"NID": 8 * b + 4 * z + k + 11, "X": x + 0.2, "Y": y + 0.1, "Z": 1.5 * b + z + 1.5}
+                for b in (0, 1)
+                for z in (0, 1)
+                for k, (x, y) in enumerate(CORNERS)
+            ],
         ),
-        ("ELEMENT_SOLID", [dict(zip(["EID", "PID"] + ["N%d" % k for k in range(1, 9)],
-                                    [1, 1] + list(range(1, 9))))]),
+        ("ELEMENT_SOLID", [
+            dict(zip(["EID", "PID"] + ["N%d" % k for k in range(1, 9)],
+                     [e, p] + list(range(first, first + 8))))
+            for e, p, first in ((1, 1, 1), (3, 2, 11), (4, 3, 19))
+        ]),
         (
             "ELEMENT_SOLID (ten nodes format)",
             [
@@ -236,9 +248,14 @@ IN_SPACE = (
                 dict(zip(["N%d" % k for k in range(1, 9)], [6, 2, 3, 7, 9, 9, 10, 10])),
             ],
         ),
-        ("PART", [{"HEADING": "block"}, {"PID": 1, "SECID": 1, "MID": 1}]),
+        ("PART", [
+            {"HEADING": "block"}, {"PID": 1, "SECID": 1, "MID": 1},
+            {"HEADING": "above it"}, {"PID": 2, "SECID": 1, "MID": 1},
+            {"HEADING": "above that"}, {"PID": 3, "SECID": 1, "MID": 1},
+        ]),
         ("SECTION_SOLID", [{"SECID": 1, "ELFORM": -1}]),
         ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
+        ("SET_NODE_LIST", [{"SID": 1}, {"NID1": 11, "NID2": 12, "NID3": 13, "NID4": 14}]),
         ("SET_SOLID_LIST", [{"SID": 1}, {"EID1": 1}]),
         ("SET_SOLID", [{"SID": 2}, {"EID1": 1, "EID2": 2}]),
         ("SET_SOLID_LIST_GENERATE", [{"SID": 3}, {"B1BEG": 1, "B1END": 2}]),
@@ -256,6 +273,18 @@ IN_SPACE = (
         ("LOAD_SEGMENT_SET", [{"SSID": 1, "LCID": 1, "SF": 0.1}]),
         ("LOAD_SEGMENT", [{"LCID": 1, "SF": 0.1, "N1": 3, "N2": 10, "N3": 7}]),
         ("LOAD_BODY_Z", [{"LCID": 1, "SF": 10.0}]),
+        (
+            "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
+            [{"SURFA": 2, "SURFB": 3, "SURFATYP": 3, "SURFBTYP": 3}, {"FS": 0.2}],
+        ),
+        (
+            "CONTACT_AUTOMATIC_NODES_TO_SURFACE",
+            [{"SURFA": 1, "SURFB": 1, "SURFATYP": 4, "SURFBTYP": 3}, {"FS": 0.2, "BT": 1.0}],
+        ),
+        (
+            "CONTACT_AUTOMATIC_SINGLE_SURFACE",
+            [{"SURFA": 0, "SURFATYP": 5}, {"FS": 0.2}],
+        ),
         ("DATABASE_HISTORY_SOLID", [{"ID1": 1}]),
         ("DATABASE_HISTORY_SOLID_ID", [{"ID1": 2, "HEADING": "the wedge"}]),
         ("DATABASE_HISTORY_SOLID_SET", [{"ID1": 2}]),

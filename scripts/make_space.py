@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
-"""Writes the decks of input/space that hold meshes of contact and impact:  make_space.py [FOLDER]
+"""Write the decks of input/space that hold meshes of contact and impact.
 
 Each deck's head has a sketch, units, the result to expect and its error, and how to draw it. A test
 runs them all; another writes them again and compares."""
 
+import argparse
 import itertools
 import os
-import sys
-from math import atan2, cos, pi, sin, sqrt
+from math import cos, pi, sin, sqrt
 
+import startup  # noqa: F401  before what is no part of Python
 import numpy as np
-
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def rotation(axis, angle):
@@ -371,13 +370,19 @@ DECKS = {
 
 
 def main():
-    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "input", "space")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    space = os.path.join(startup.ROOT, "input", "space")
+    parser.add_argument("folder", nargs="?", default=space, help="where to (input/space)")
+    folder = parser.parse_args().folder
     for name, make in DECKS.items():
         text, out = make()
         lines = ["$ " + line if line else "$" for line in text.split("\n")] + out + ["*END", ""]
         with open(os.path.join(folder, name + ".k"), "w", encoding="utf-8") as file:
             file.write("\n".join(lines))
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(main())

@@ -290,7 +290,7 @@ contains
   pure real(wp) function largest_turn(surface, reference, u)
     type(surface_t), intent(in) :: surface
     real(wp), intent(in), contiguous :: reference(:, :), u(:, :)
-    real(wp) :: d(size(u, 1))
+    real(wp) :: d(3), plane(2)
     integer :: e, j, m, a, b
     largest_turn = zero
     do e = 1, surface%facets%n
@@ -307,9 +307,9 @@ contains
     do e = 1, size(surface%length)
       if (.not. surface%is_listed(e)) cycle
       associate (a => surface%end_node(1, e), b => surface%end_node(2, e))
-        d = (u(:, b) - reference(:, surface%index(b))) &
+        plane = (u(:, b) - reference(:, surface%index(b))) &
             - (u(:, a) - reference(:, surface%index(a)))
-        largest_turn = max(largest_turn, sqrt(d(1)**2 + d(2)**2)/surface%length(e))
+        largest_turn = max(largest_turn, sqrt(plane(1)**2 + plane(2)**2)/surface%length(e))
       end associate
     end do
   end function largest_turn

@@ -62,8 +62,8 @@ contains
             this%sight%fan, this%near(s))
       end do
       t = facing_side(this, 1)
-      if (this%watches_edges) call list_edge_pairs(this%skin(1), this%skin(t), this%edges(1), this%edges(t), reach, &
-          this%is_self, this%leaves_out, this%pairs)
+      if (this%watches_edges) call list_edge_pairs(this%skin(1), this%skin(t), &
+          this%edges(1), this%edges(t), reach, this%is_self, this%leaves_out, this%pairs)
       ! Facets that do not face may come to, edges that are flat may become sharp.
       this%turn_margin = half*turn_limit
     end if

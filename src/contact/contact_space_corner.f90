@@ -67,18 +67,28 @@ contains
     real(wp), intent(out) :: mean(3)
     logical, intent(out) :: is_smooth
     real(wp), parameter :: facing = -0.5_wp
-    logical :: counts(fan%facets)
     integer :: k
-    counts = .false.
+    mean = zero
     do k = 1, fan%facets
-      counts(k) = any(matmul(fan%normal(:, k), facet) < facing)
+      if (counts(k)) mean = mean + fan%normal(:, k)
     end do
-    mean = sum(fan%normal(:, :fan%facets), dim=2, mask=spread(counts, 1, 3))
     is_smooth = norm2(mean) > zero
     if (.not. is_smooth) return
     mean = mean/norm2(mean)
-    is_smooth = all(matmul(mean, fan%normal(:, :fan%facets)) > cos(smooth_angle) .or. &
-        .not. counts)
+    do k = 1, fan%facets
+      if (counts(k)) is_smooth = is_smooth .and. &
+          dot_product(mean, fan%normal(:, k)) > cos(smooth_angle)
+    end do
+  contains
+    !> Does facet k of the fan face one of the facets?
+    pure logical function counts(k)
+      integer, intent(in) :: k
+      integer :: j
+      counts = .false.
+      do j = 1, size(facet, 2)
+        counts = counts .or. dot_product(fan%normal(:, k), facet(:, j)) < facing
+      end do
+    end function counts
   end subroutine facing_mean
 
   !> Adds a normal that is not among them yet.
@@ -114,22 +124,26 @@ contains
   pure subroutine choose_of(normal, y, f, enough, length, n)
     real(wp), intent(in) :: normal(:, :), y(3), f(3), enough, length
     real(wp), intent(out) :: n(3)
-    real(wp) :: m(size(normal, 2)), t(size(normal, 2)), tie
-    logical :: chosen(size(normal, 2))
-    integer :: k
+    real(wp) :: m(most_normals), t(most_normals), largest, last, tie
+    logical :: is_chosen
+    integer :: k, count
+    count = size(normal, 2)
     tie = 1.0e-9_wp*length
-    m = matmul(y + f, normal)
-    chosen = m >= maxval(m) - tie
-    if (maxval(m) < -enough) then
-      do k = 1, size(m)
-        t(k) = instant_of_leaving(dot_product(normal(:, k), y), m(k))
-      end do
-      chosen = t >= maxval(t)
-      if (maxval(t) < never) chosen = (maxval(t) - t)*norm2(f) <= tie
-    end if
-    n = sum(normal, dim=2, mask=spread(chosen, 1, 3))
+    do k = 1, count
+      m(k) = dot_product(normal(:, k), y + f)
+      t(k) = instant_of_leaving(dot_product(normal(:, k), y), m(k))
+    end do
+    largest = maxval(m(:count))
+    last = maxval(t(:count))
+    n = zero
+    do k = 1, count
+      is_chosen = m(k) >= largest - tie
+      if (largest < -enough) is_chosen = t(k) >= last
+      if (largest < -enough .and. last < never) is_chosen = (last - t(k))*norm2(f) <= tie
+      if (is_chosen) n = n + normal(:, k)
+    end do
     n = n/norm2(n)
-    do k = 1, size(m)         ! round-off of the mean of one
+    do k = 1, count           ! round-off of the mean of one
       if (sum(abs(n - normal(:, k))) < 1.0e-12_wp) n = normal(:, k)
     end do
   end subroutine choose_of

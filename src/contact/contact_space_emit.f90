@@ -24,9 +24,12 @@ contains
     type(space_place_t), intent(in) :: place
     type(rows_t), intent(inout) :: rows
     real(wp) :: weight(5)
+    integer :: point(5)
     call weights_of(place, weight)
+    point(1) = place%node
+    point(2:) = place%point
     call add_row(rows, [number, place%side, place%node, place%key], &
-        [place%node, place%point(:place%points)], weight(:place%points + 1), place%normal, &
+        point(:place%points + 1), weight(:place%points + 1), place%normal, &
         place%gap, mu, place%length, kind_of(place), &
         merge(zero, place%allowance, place%is_exact))
     rows%is_twin(rows%n) = place%is_twin
@@ -90,7 +93,8 @@ contains
       new%row = found
       new%key = [number, place%side, place%node, place%key]
       new%points = place%points + 1
-      new%point(:new%points) = [place%node, place%point(:place%points)]
+      new%point(1) = place%node
+      new%point(2:5) = place%point
       call weights_of(place, new%weight)
       new%normal = place%normal
       new%gap = gap_of_points(new%point(:new%points), new%weight, place%normal, x, u0)

@@ -55,7 +55,10 @@ contains
             [a%facet, b%facet], view, sight)
       else
         if (.not. (any(before) .or. both_at)) return
-        direction = reshape([t, -t, cross(a%normal, t), cross(t, b%normal)], [3, 4])
+        direction(:, 1) = t
+        direction(:, 2) = -t
+        direction(:, 3) = cross(a%normal, t)
+        direction(:, 4) = cross(t, b%normal)
         call judge_sharp_edge(own, obstacle, node, e, first, second, s, y, f, direction, view, &
             sight)
       end if
@@ -116,65 +119,89 @@ contains
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
     type(view_t), intent(in) :: view
     type(space_sight_t), intent(inout) :: sight
-    integer :: at(obstacle%first_facet(v + 1) - obstacle%first_facet(v)), i, m
     real(wp) :: y(3), mean(3)
-    logical :: faces(size(at))
-    m = size(at)
-    do i = 1, m
-      associate (facet => obstacle%facet(obstacle%first_facet(v) + i - 1))
-        if (view%may_share) then
-          if (touches(obstacle, facet, node)) return
-        end if
-        call see(obstacle, facet, x, u, node, view, .false., sight)
-        at(i) = sight%at(facet)
-      end associate
-      associate (seen => sight%seen(at(i)))
-        if (seen%is_before .or. seen%feature /= on_vertex) return
-        if (seen%which /= v) return
-        faces(i) = faces_fan(seen%normal, sight%fan, sine_of_facing)
-      end associate
-    end do
+    logical :: is_nearest, is_smooth, is_reflex
+    integer :: i
+    call see_round(obstacle, v, node, x, u, view, sight, is_nearest)
+    if (.not. is_nearest) return
     y = from_node(x, u, node, obstacle%vertex(v))
-    mean = zero
-    do i = 1, m
-      if (faces(i)) mean = mean + sight%seen(at(i))%normal
-    end do
-    if (count(faces) > 1) then
-      if (all(matmul(mean/norm2(mean), normals(at)) > cos(smooth_angle) .or. .not. faces)) then
-        call add_smooth_place(obstacle, node, 0, zero, y, mean, facets(pack(at, faces)), view, &
-            sight)
-        call finish_vertex(obstacle, v, sight)
-        return
-      end if
+    call mean_of_facing(sight, mean, is_smooth)
+    if (is_smooth) then
+      call add_smooth_place(obstacle, node, 0, zero, y, mean, sight%round(:sight%n_round), &
+          view, sight)
+      call finish_vertex(obstacle, v, sight)
+      return
     end if
-    if (any(obstacle%turn(obstacle%edge(obstacle%first_edge(v): &
-        obstacle%first_edge(v + 1) - 1)) < -smooth_angle)) then
-      do i = 1, m
-        sight%seen(at(i))%is_kept = makes_row(obstacle, sight%seen(at(i)), view, sight%fan)
+    is_reflex = .false.
+    do i = obstacle%first_edge(v), obstacle%first_edge(v + 1) - 1
+      is_reflex = is_reflex .or. obstacle%turn(obstacle%edge(i)) < -smooth_angle
+    end do
+    if (is_reflex) then
+      do i = 1, sight%n_round
+        associate (seen => sight%seen(sight%at(sight%round(i))))
+          seen%is_kept = makes_row(obstacle, seen, view, sight%fan)
+        end associate
       end do
       return
     end if
     call open_fan(obstacle, obstacle%vertex(v), x, u, view%is_reference, sight%other)
-    call choose_at_feature(own, obstacle, node, facets(at), normals(at), &
-        sight%other%edge(:, :sight%other%edges), 0, zero, y, f, view, sight)
+    call choose_at_feature(own, obstacle, node, sight%round(:sight%n_round), &
+        sight%normal(:, :sight%n_round), sight%other%edge(:, :sight%other%edges), 0, zero, y, &
+        f, view, sight)
     call finish_vertex(obstacle, v, sight)
-  contains
-    pure function normals(at) result(n)
-      integer, intent(in) :: at(:)
-      real(wp) :: n(3, size(at))
-      integer :: k
-      do k = 1, size(at)
-        n(:, k) = sight%seen(at(k))%normal
-      end do
-    end function normals
-    pure function facets(at) result(list)
-      integer, intent(in) :: at(:)
-      integer :: list(size(at)), k
-      do k = 1, size(at)
-        list(k) = sight%seen(at(k))%facet
-      end do
-    end function facets
   end subroutine judge_vertex
+
+  !> The facets round a vertex and their normals, into sight; is_nearest: the vertex is the
+  !> closest point of all of them.
+  subroutine see_round(obstacle, v, node, x, u, view, sight, is_nearest)
+    type(skin_t), intent(in) :: obstacle
+    integer, intent(in) :: v, node
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    type(view_t), intent(in) :: view
+    type(space_sight_t), intent(inout) :: sight
+    logical, intent(out) :: is_nearest
+    integer :: i
+    is_nearest = .false.
+    sight%n_round = 0
+    do i = obstacle%first_facet(v), obstacle%first_facet(v + 1) - 1
+      associate (facet => obstacle%facet(i))
+        if (view%may_share) then
+          if (touches(obstacle, facet, node)) return
+        end if
+        call see(obstacle, facet, x, u, node, view, .false., sight)
+        associate (seen => sight%seen(sight%at(facet)))
+          if (seen%is_before .or. seen%feature /= on_vertex) return
+          if (seen%which /= v) return
+          sight%n_round = sight%n_round + 1
+          sight%round(sight%n_round) = facet
+          sight%normal(:, sight%n_round) = seen%normal
+        end associate
+      end associate
+    end do
+    is_nearest = .true.
+  end subroutine see_round
+
+  !> The sum of the normals round a vertex that face the node; is_smooth: there are several,
+  !> which are nearly one.
+  pure subroutine mean_of_facing(sight, mean, is_smooth)
+    type(space_sight_t), intent(in) :: sight
+    real(wp), intent(out) :: mean(3)
+    logical, intent(out) :: is_smooth
+    integer :: i, n
+    n = 0
+    mean = zero
+    do i = 1, sight%n_round
+      if (.not. faces_fan(sight%normal(:, i), sight%fan, sine_of_facing)) cycle
+      n = n + 1
+      mean = mean + sight%normal(:, i)
+    end do
+    is_smooth = n > 1
+    do i = 1, sight%n_round
+      if (.not. is_smooth) exit
+      if (faces_fan(sight%normal(:, i), sight%fan, sine_of_facing)) is_smooth = &
+          dot_product(sight%normal(:, i), mean) > cos(smooth_angle)*norm2(mean)
+    end do
+  end subroutine mean_of_facing
 
   !> A place at a smooth edge or vertex, with the mean normal of its facets.
   pure subroutine add_smooth_place(obstacle, node, e, s, y, normal, facet, view, sight)
@@ -185,7 +212,7 @@ contains
     type(space_sight_t), intent(inout) :: sight
     real(wp) :: n(3), length
     n = normal/norm2(normal)
-    length = minval(obstacle%size(facet))
+    length = smallest(obstacle, facet)
     if (.not. faces_fan(n, sight%fan, sine_of_facing)) return
     call add_shared_place(obstacle, node, facet, y, n, length, view, sight)
     if (e > 0) call finish_edge(obstacle, e, s, sight)
@@ -203,7 +230,7 @@ contains
     type(space_sight_t), intent(inout) :: sight
     real(wp) :: common(3, most_normals), n(3), shorter, own_size
     integer :: m, k
-    shorter = minval(obstacle%size(facet))
+    shorter = smallest(obstacle, facet)
     call common_normals(normal, direction, sight%fan, common, m)
     if (m == 0) return
     if (held > 0) then
@@ -212,7 +239,7 @@ contains
     own_size = size_before(sight%fan, normal(:, 1))
     if (.not. own_size > zero) own_size = shorter
     do k = 1, size(facet)
-      if (any(sum(abs(common(:, :m) - spread(normal(:, k), 2, m)), dim=1) < 1.0e-9_wp)) cycle
+      if (is_among(normal(:, k), common(:, :m))) cycle
       if (min(-dot_product(normal(:, k), y), dot_product(normal(:, k), f - y)) > &
           beside*min(shorter, own_size)) return
     end do
@@ -222,5 +249,26 @@ contains
     call add_shared_place(obstacle, node, facet, y, n, shorter, view, sight)
     if (sight%places > k .and. held > 0) sight%seen(held)%is_kept = .false.
   end subroutine choose_at_feature
+
+  !> Is a normal one of these, to round-off?
+  pure logical function is_among(n, list)
+    real(wp), intent(in) :: n(3), list(:, :)
+    integer :: k
+    is_among = .false.
+    do k = 1, size(list, 2)
+      is_among = is_among .or. sum(abs(list(:, k) - n)) < 1.0e-9_wp
+    end do
+  end function is_among
+
+  !> The smallest of the facets [L].
+  pure real(wp) function smallest(obstacle, facet)
+    type(skin_t), intent(in) :: obstacle
+    integer, intent(in) :: facet(:)
+    integer :: k
+    smallest = obstacle%size(facet(1))
+    do k = 2, size(facet)
+      smallest = min(smallest, obstacle%size(facet(k)))
+    end do
+  end function smallest
 
 end module contact_space_features

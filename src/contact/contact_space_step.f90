@@ -188,15 +188,13 @@ contains
     type(rows_t), intent(in) :: rows
     type(late_t), intent(inout) :: late(:)
     integer, intent(inout) :: n
-    type(late_t) :: found(size(late))
-    integer :: s, j, k, m, n_first
+    integer :: s, j, k, n_first
     logical :: some_deep
     some_deep = .false.
     do s = 1, watched_sides(this)
       call find_gaps(this, model%x, s, u1, some_deep)
     end do
     this%is_measured = .true.
-    m = 0
     if (some_deep) then
       ! All places: what meets a deep node decides which of the two has the row.
       this%places = 0
@@ -215,16 +213,13 @@ contains
         else if (k <= this%pairs%n) then
           exit
         end if
-        call judge_late_place(this%number, model%x, u0, this%place(j), rows, found, m)
+        call judge_late_place(this%number, model%x, u0, this%place(j), rows, late, n)
         j = j + 1
       end do
       if (k > this%pairs%n) exit
       if (this%crossing(k)%is_valid) call judge_late_crossing(key_of(this, k), model%x, u0, &
-          this%crossing(k), rows, found, m)
+          this%crossing(k), rows, late, n)
     end do
-    m = min(m, size(late) - n)
-    late(n + 1:n + m) = found(:m)
-    n = n + m
   end subroutine find_late_rows
 
   !> All places of the near nodes of a side at the end of the step.

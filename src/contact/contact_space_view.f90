@@ -40,6 +40,9 @@ module contact_space_view
     integer :: n = 0                       !< with neighbours that were not listed
     type(seen_t), allocatable :: seen(:)
     integer, allocatable :: at(:)          !< (facets) number among them, 0 = not seen
+    integer :: n_round = 0                 !< facets round a vertex, and their normals
+    integer, allocatable :: round(:)
+    real(wp), allocatable :: normal(:, :)
     type(space_place_t), allocatable :: place(:)
     integer :: places = 0
   end type space_sight_t
@@ -65,8 +68,9 @@ contains
     m = n*(4 + 4*most_round) + 8
     if (allocated(sight%at)) then
       if (size(sight%at) >= max(own%facets, obstacle%facets) .and. size(sight%seen) >= m) return
-      deallocate (sight%at, sight%seen, sight%place)
+      deallocate (sight%at, sight%seen, sight%place, sight%round, sight%normal)
     end if
+    allocate (sight%round(most_round), sight%normal(3, most_round))
     allocate (sight%at(max(own%facets, obstacle%facets)), sight%seen(m), sight%place(m))
     sight%at = 0
   end subroutine size_space_sight
@@ -115,9 +119,15 @@ contains
     type(view_t), intent(in) :: view
     type(space_sight_t), intent(inout) :: sight
     real(wp) :: gap
+    logical :: is_listed
+    integer :: k
     gap = -dot_product(n, y)
     if (gap > view%reach .or. gap <= -deepest*length) return
-    if (.not. any(obstacle%is_listed(facet))) return
+    is_listed = .false.
+    do k = 1, size(facet)
+      is_listed = is_listed .or. obstacle%is_listed(facet(k))
+    end do
+    if (.not. is_listed) return
     sight%places = sight%places + 1
     sight%place(sight%places) = space_place_t(node=node, facet=facet(1), y=y, normal=n, &
         gap=gap, length=length, is_shared=.true.)

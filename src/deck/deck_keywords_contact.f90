@@ -138,21 +138,18 @@ contains
       first = 1
       do while (first <= len_trim(names(k)))
         last = first - 1 + index(names(k)(first:)//' ', ' ') - 1
-        call add_optional(table, names(k)(first:last), k, first)
+        call add_optional(table, names(k)(first:last), achar(iachar('0') + k))
         first = last + verify(names(k)(last + 1:)//'x', ' ')
       end do
     end do
   end subroutine add_optional_cards
 
-  subroutine add_optional(table, name, card, first)
+  subroutine add_optional(table, name, card)
     type(table_t), intent(inout) :: table
-    character(*), intent(in) :: name
-    integer, intent(in) :: card, first
-    character(8) :: unused
+    character(*), intent(in) :: name, card
     select case (name)
     case ('-')
-      write (unused, '(a, i0, a, i0)') 'NONE', card, '_', first
-      call add_field(table, trim(unused), 'R10 fixed', 'not used')
+      call add_field(table, 'BLANK'//card, 'R10 fixed', 'not used')
     case ('SLDTHK')
       call add_field(table, name, 'R10 fixed', 'thickness of solids')
     case ('FRICSF')

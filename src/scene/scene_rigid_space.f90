@@ -13,8 +13,8 @@ module scene_rigid_space
   private
   public :: read_rigid_in_space
 
-  character(*), parameter :: instead = 'hold it by CMO 1, CON1 and CON2 7 of *MAT_RIGID, or '// &
-      'prescribe its translations by *BOUNDARY_PRESCRIBED_MOTION_RIGID'
+  character(*), parameter :: instead = 'hold it by CMO 1, CON1 and CON2 7 of *MAT_RIGID, '// &
+      'or prescribe its translations by *BOUNDARY_PRESCRIBED_MOTION_RIGID'
 
 contains
 
@@ -43,9 +43,9 @@ contains
     do p = 1, size(model%part)
       if (.not. model%part(p)%is_rigid) cycle
       held = constraints_of(deck, model%part(p)%material_id)
-      if (.not. all(held(:3) .or. moved(:, p))) call deck%complain(model%part(p)%record, 'MID', &
-          'rigid part '//to_text(model%part(p)%id)//' may move freely: that is not available '// &
-          'in space in this version', instead)
+      if (.not. all(held(:3) .or. moved(:, p))) call deck%complain(model%part(p)%record, &
+          'MID', 'rigid part '//to_text(model%part(p)%id)//' may move freely: that is not '// &
+          'available in space in this version', instead)
       model%part(p)%is_rigid = .false.      ! it is a mesh with supports now
     end do
   end subroutine read_rigid_in_space
@@ -58,8 +58,8 @@ contains
     integer :: k, r
     do k = 1, size(names)
       r = deck%next(trim(names(k)), 1, 0)
-      if (r > 0) call deck%complain(r, '', '*'//trim(names(k))//' is not available in space '// &
-          'in this version', 'rigid parts in space are held, or moved by '// &
+      if (r > 0) call deck%complain(r, '', '*'//trim(names(k))//' is not available in '// &
+          'space in this version', 'rigid parts in space are held, or moved by '// &
           '*BOUNDARY_PRESCRIBED_MOTION_RIGID')
     end do
   end subroutine refuse_free

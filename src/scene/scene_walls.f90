@@ -136,8 +136,8 @@ contains
     wall%length = deck%real(third, 'LENL')
     if (.not. wall%length > zero) return
     if (deck%in_space) then
-      call deck%complain(third, 'LENL', 'a wall with ends is not available in space in this '// &
-          'version', 'LENL 0 is a plane without ends')
+      call deck%complain(third, 'LENL', 'a wall with ends is not available in space in '// &
+          'this version', 'LENL 0 is a plane without ends')
       return
     end if
     if (abs(deck%real(third, 'ZHEV') - deck%real(second, 'ZT')) > zero) call deck%complain( &

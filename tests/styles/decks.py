@@ -232,7 +232,7 @@ add(
 )
 add(
     "filled: three dimensions",
-    "refused",
+    "fault",
     filled,
     more=SOLID + [("CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", [{"surfa": 1, "surfb": 2}, {}, {}])],
 )

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Two roofs that meet ridge across ridge: with rows of edges they stand apart; without them, which
-!> no deck can ask for, the nodes notice when they are deep in each other.
+!> Two roofs that meet ridge across ridge: with rows of edges they stand apart; without them,
+!> which no deck can ask for, the nodes notice when they are deep in each other.
 program test_crossing
   use base_kinds, only: wp
   use base_status, only: status_t, failed, status_text
@@ -19,7 +19,7 @@ program test_crossing
   call cross_roofs(.true., closest)
   call check_true(closest > -1.0e-6_wp, 'with rows of edges the ridges stand apart')
   call cross_roofs(.false., closest)
-  call check_true(closest < -0.1_wp, 'without them they go through each other, .12 deep or more')
+  call check_true(closest < -0.1_wp, 'without them they go .1 deep through each other')
   call test_end()
 
 contains
@@ -58,8 +58,8 @@ contains
     gap_of_ridges = height(run, 0.21_wp, 2) - height(run, 0.13_wp, 1)
   end function gap_of_ridges
 
-  !> z at a place along the ridge of a body, between the nodes of its middle edge, at -.4 and .4:
-  !> the third nodes of sections 3 and 4 of 6.
+  !> z at a place along the ridge of a body, between the nodes of its middle edge, at -.4 and
+  !> .4: the third nodes of sections 3 and 4 of 6.
   real(wp) function height(run, place, body)
     type(run_t), intent(in) :: run
     real(wp), intent(in) :: place
