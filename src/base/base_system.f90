@@ -8,7 +8,7 @@ module base_system
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: make_folder, is_terminal, leave, exec_hdf5_program, peak_memory
+  public :: make_folder, is_terminal, leave, exec_hdf5_program, peak_memory, machine_memory
 
   interface
     integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
@@ -134,5 +134,23 @@ contains
     list(n + 1) = c_null_ptr
     ignored = c_execv(path//c_null_char, list)
   end subroutine exec_hdf5_program
+
+  !> Bytes of memory of the machine; the largest number where the system does not say.
+  integer(i8) function machine_memory()
+    character(80) :: line
+    integer :: unit, stat
+    machine_memory = huge(machine_memory)
+    open (newunit=unit, file='/proc/meminfo', status='old', action='read', iostat=stat)
+    if (stat /= 0) return
+    do
+      read (unit, '(a)', iostat=stat) line
+      if (stat /= 0) exit
+      if (index(line, 'MemTotal:') /= 1) cycle
+      read (line(10:), *, iostat=stat) machine_memory
+      if (stat == 0) machine_memory = 1024_i8*machine_memory
+      exit
+    end do
+    close (unit)
+  end function machine_memory
 
 end module base_system

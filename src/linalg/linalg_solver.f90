@@ -9,7 +9,9 @@
 module linalg_solver
   use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, i8
-  use base_status, only: status_t
+  use base_status, only: status_t, fail, status_file
+  use base_strings, only: to_text
+  use base_system, only: machine_memory
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_dense, only: dense_spd_t, dense_solve, dense_inverse
   implicit none
@@ -87,7 +89,7 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole, check_graph, check_matrix, check_vectors
+  public :: solve_whole, work_of, check_memory, check_graph, check_matrix, check_vectors
 
 contains
 
@@ -120,6 +122,29 @@ contains
     call solver%solve_schur(x_interface)
     call solver%backward(x_interface, x)
   end subroutine solve_whole
+
+  !> Gflop of a factorisation, multiplications and additions.
+  pure real(wp) function work_of(solver)
+    class(solver_t), intent(in) :: solver
+    work_of = 2.0e-9_wp*solver%d**3*real(solver%info%multiplications, wp)
+  end function work_of
+
+  !> Before anything is allocated: does the factor, of factor_bytes, fit into the memory of the
+  !> machine? Fails where it does not.
+  subroutine check_memory(solver, status)
+    class(solver_t), intent(in) :: solver
+    type(status_t), intent(inout) :: status
+    integer(i8), parameter :: small = 100000000_i8
+    integer(i8) :: there
+    if (solver%info%factor_bytes < small) return    ! not worth asking the system
+    there = machine_memory()
+    if (solver%info%factor_bytes < there) return
+    call fail(status, status_file, 'the factor of the matrix needs '// &
+        to_text(solver%info%factor_bytes/1000000_i8)//' MB ('//to_text(work_of(solver))// &
+        ' Gflop); the machine has '//to_text(there/1000000_i8)//' MB', &
+        hint='an explicit scheme factors nothing; fewer contact nodes or a coarser mesh '// &
+        'need less')
+  end subroutine check_memory
 
   !> Assertions on what an engine is given to analyse: rows of the graph without gaps, and nodes
   !> of it as `last`, each once. place: the procedure that asks.

@@ -11,7 +11,7 @@ module run_operator
   use contact_condense, only: constrain_interface
   use linalg_graph, only: block_matrix_t
   use linalg_registry, only: make_solver, engine_diagonal
-  use linalg_solver, only: solver_t, solver_options_t
+  use linalg_solver, only: solver_t, solver_options_t, work_of
   use run_data, only: run_t, operator_t
   use run_motion, only: find_smooth_reactions
   use run_rigid, only: link_interface, keep_flexibility
@@ -157,7 +157,7 @@ contains
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
     if (again) then
-      call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
+      call analyse_matrix(run, status)
       if (failed(status)) return
       run%analyses = run%analyses + 1
     end if
@@ -173,6 +173,24 @@ contains
       call constrain_interface(run%contact, run%system%fixed_list)
     end if
   end subroutine factor_stage
+
+  !> Order and storage of the factor. Where the deck leaves the engine open and the work is that
+  !> of a large body in space, dense panels take half the time (doc/performance.md); they do not
+  !> know null pivots.
+  subroutine analyse_matrix(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    type(solver_options_t) :: options
+    real(wp), parameter :: much_work = 0.1_wp    ! Gflop
+    call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
+    options = run%solver_options
+    if (failed(status) .or. options%engine /= 'AUTO' .or. run%solver%takes_diagonal .or. &
+        options%null_pivot > zero .or. run%solver%info%engine == 'SUPERNODAL') return
+    if (run%system%dim == 2 .or. work_of(run%solver) < much_work) return
+    options%engine = 'SUPERNODAL'
+    call make_solver(options, run%solver, status)
+    call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
+  end subroutine analyse_matrix
 
   !> The nodes that come last in the elimination.
   pure function kept_nodes(run) result(list)

@@ -13,6 +13,7 @@ module run_report
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
   use deck_names, only: step_fixed
+  use linalg_solver, only: work_of
   use run_data, only: run_t
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
@@ -41,7 +42,8 @@ contains
         to_text(run%state%time)
     write (run%log_unit, '(a)') 'solver '//run%solver%info%engine//', order '// &
         run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)// &
-        ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications'
+        ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications ('// &
+        to_text(work_of(run%solver))//' Gflop)'
   end subroutine open_log
 
   !> deck.echo.k: the deck as understood. Where its hash was taken it is there already.

@@ -10,7 +10,9 @@ sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
 import scenes
 from scenes import at_most, check, finish, run_text, show, table, within
-from solids import HEX_FACES, Box, cards, deck, part, tetrahedra
+from solids import Box, cards, deck, part
+
+import collide_space
 
 from space import ENERGIES, Slab, contents, run
 from space_walls import TURNS, rotation
@@ -207,94 +209,14 @@ def space_roofs():
     at_most(np.abs(v - found[1][1]).max(), 1.0e-9, "roofs: a single surface")
 
 
-TET = np.array([[0, 0, 0], [1, 0, 0], [0.5, 3**0.5 / 2, 0], [0.5, 3**0.5 / 6, (2 / 3) ** 0.5]])
-TET_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))
-TET_EDGES = tuple(itertools.combinations(range(4), 2))
-
-
-def separation(p, q):
-    """How deep two tetrahedra (4, 3) stand in each other; negative: their distance at least. By the
-    axes of separation: normals of faces, products of edges."""
-    axes = [np.cross(t[b] - t[a], t[c] - t[a]) for t in (p, q) for a, b, c in TET_FACES]
-    e, f = ([t[b] - t[a] for a, b in TET_EDGES] for t in (p, q))
-    axes = np.array(axes + [np.cross(a, b) for a in e for b in f])
-    length = np.linalg.norm(axes, axis=1)
-    axes = axes[length > 1.0e-6] / length[length > 1.0e-6, None]
-    a, b = p @ axes.T, q @ axes.T
-    return -np.maximum(b.min(axis=0) - a.max(axis=0), a.min(axis=0) - b.max(axis=0)).max()
-
-
-def overlap(x, elements, y, others):
-    """The deepest of all pairs of tetrahedra of two bodies; those whose boxes are apart are not."""
-    deep = -1.0
-    for a, b in itertools.product(elements, others):
-        p, q = x[list(a[:4])], y[list(b[:4])]
-        apart = max((p.min(axis=0) - q.max(axis=0)).max(), (q.min(axis=0) - p.max(axis=0)).max())
-        deep = max(deep, -apart if apart > 0 else separation(p, q))
-    return deep
-
-
-def shot(seed, share):
-    """Two bodies of tetrahedra, each one or a cube of six, at random; steps in which a node moves
-    `share` of an edge: (deck, places and elements of both)."""
-    chance = np.random.default_rng(seed)
-    bodies = []
-    for _ in range(2):
-        if chance.integers(2):
-            x, elements = TET - TET.mean(axis=0), [[0, 1, 2, 3, 3, 3, 3, 3]]
-        else:
-            box = Box((1, 1, 1))
-            x, elements = box.x - 0.5, tetrahedra(box.elements[0])
-        turn = rotation(chance.normal(size=3), chance.uniform(0.0, np.pi))
-        bodies.append((x @ turn.T, elements))
-    (x, e), (y, f) = bodies
-    way = chance.normal(size=3)
-    way /= np.linalg.norm(way)
-    aside = chance.normal(size=3)
-    aside -= (aside @ way) * way
-    y = y + 2.1 * way + aside / np.linalg.norm(aside) * chance.uniform(0.0, 1.0)
-    low, high = 0.0, 3.0
-    for _ in range(30):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if overlap(x, e, y - middle * way, f) > 0 else (middle, high)
-    y = y - max(0.0, low - chance.uniform(0.02, 0.3)) * way
-    spins = [chance.normal(size=3) * chance.uniform(0.0, 0.5) for _ in range(2)]
-    v = np.cross(spins[0], x - x.mean(axis=0)) + 0.5 * way
-    w = np.cross(spins[1], y - y.mean(axis=0)) - 0.5 * way
-    lines = cards(x, e) + cards(y, f, 2, 101)
-    for number in (1, 2):
-        young, density = float(10 ** chance.uniform(2, 4)), float(10 ** chance.uniform(-1, 1))
-        lines += part("TET4", young, 0.3, density, number)
-    lines += velocities(range(len(x)), v) + velocities(range(len(y)), w, 101)[1:]
-    lines += contact((0.0, 0.3, 1.0)[chance.integers(3)])
-    lines += ["*DATABASE_HISTORY_NODE"] + ["%d," % (r + 1) for r in range(len(x))]
-    lines += ["%d," % (r + 101) for r in range(len(y))]
-    step = share / float(np.linalg.norm(v, axis=1).max() + np.linalg.norm(w, axis=1).max())
-    return deck(lines, step, 0.8, tables=("GLSTAT", "NODOUT")), (x, e), (y, f)
-
-
-def judge_shot(seed, share):
-    """(how it ended, deepest overlap, rise of energy, it touched)"""
-    text, (x, e), (y, f) = shot(seed, share)
-    folder, code, errors = run_text("shot %d" % seed, text)
-    if code not in (0, 1):
-        return "exit code %d: %s" % (code, errors), 0.0, 0.0, False
-    nodes, energy = table(folder, "nodout"), table(folder, "glstat")
-    places = np.stack([nodes[c] for c in "xyz"], axis=1).reshape(-1, len(x) + len(y), 3)
-    deep = max(overlap(p[: len(x)], e, p[len(x) :], f) for p in places)
-    rise = (energy["total"] - energy["initial"] - energy["unsolved"]).max() / energy["initial"][0]
-    how = "stopped" if code else "warned" if "WARNING overlap" in errors else "ran"
-    return how, deep, rise, energy["kinetic"].min() < 0.999 * energy["kinetic"][0]
-
-
 def space_shots():
-    """Random encounters of tetrahedra and cubes. In steps of .05 edge nothing is deeper than 1e-2
+    """Random encounters of tetrahedra, cubes and L-shaped bodies. In steps of .05 edge nothing is deeper than 1e-2
     edge in silence (3e-2 by this measure, which also counts how far two bodies lean on each other
     over a bent diagonal), 2 % are warned of or stopped (of 40 at most 3, by chance); in steps of .5
     edge nothing goes through in silence, deeper than the step. The energy never rises: what purses
     pay was taken before."""
     for share, count, deepest, most in ((0.05, 40, 3.0e-2, 3), (0.5, 20, 0.5, 20)):
-        found = [judge_shot(1000 + seed, share) for seed in range(count)]
+        found = [collide_space.encounter(1000 + seed, share, scenes.BIPACT, scenes.TMP) for seed in range(count)]
         silent = [deep for how, deep, _, _ in found if how == "ran"]
         at_most(max(silent), deepest, "step %g edge: silent overlap" % share)
         at_most(max(rise for _, _, rise, _ in found), 1.0e-9, "step %g: energy" % share)
