@@ -170,8 +170,8 @@ contains
       allocated = allocated + (allocations_so_far() - before)
     end do
     call check_true(run%contact%tally%solves > 0, name//' has its impact')
-    ! In space W is another one in every step: two lists for it, some for a direct solve, none for
-    ! a node (there are 25 in contact).
+    ! In space W is another one in every step: two lists for it, some for a direct solve, none
+    ! for a node (there are 25 in contact).
     bound = merge(8*quiet, 0, run%contact%dim == 3)
     call check_true(allocated <= bound, name//': none in a step')
     call check_true(quiet > steps/2, name//': most steps make no lists')
