@@ -122,6 +122,7 @@ PATHS = [
 ]
 BYTES = b"\t\r\n $*,&+-.0123456789eEdDnNaA\x00\x7f\xe9\xff\"'"
 KEYWORDS = []
+MOST_BYTES = 40000  # of a deck: runs are to be short
 
 
 def corpus(words=()):
@@ -134,6 +135,7 @@ def corpus(words=()):
                 with open(os.path.join(path, name), "rb") as file:
                     decks[folder + "/" + name] = file.read()
     words = [word.encode() for word in words]
+    decks = {n: d for n, d in decks.items() if len(d) < MOST_BYTES}
     return {n: d for n, d in decks.items() if not words or any(w in d for w in words)}
 
 
