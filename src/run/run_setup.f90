@@ -73,6 +73,9 @@ contains
         call make_contact(run%model, run%cone, run%contact)
       end if
       if (run%model%controls%redistribute) call contact_nodes(run%model, run%contact, massless)
+      if (run%model%controls%redistribute .and. size(massless) == 0) call add_message( &
+          run%notes, '', 'REDIST 1: no face looks at another body or a wall; all nodes '// &
+          'keep their mass')
     else
       allocate (run%contact%interface_node(0), run%contact%pairing(0), run%contact%rows)
     end if
