@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Let two bodies in space meet at random, many times, and judge each run from outside.
 
-Bodies of tetrahedra: one of them, cubes of six, L-shaped bodies of eighteen; of random stiffness,
-density, orientation, velocity, spin and friction. Each frame of each run is judged by axes of
-separation between the tetrahedra of the two bodies, which knows nothing of the program. A silent
-overlap, a rise of the energy, or an exit code other than 0 and 1 makes this script end with 1."""
+Bodies of tetrahedra: one of them, cubes of six, L-shaped bodies of eighteen; of random
+stiffness, density, orientation, velocity, spin and friction. Each frame of each run is judged
+by axes of separation between the tetrahedra of the two bodies, which knows nothing of the
+program. A silent overlap, a rise of the energy, or an exit code other than 0 and 1 makes this
+script end with 1."""
 
 import argparse
 import itertools
@@ -131,12 +132,12 @@ def encounter(seed, share, program, folder):
     deck, out = (os.path.join(folder, "%d%s" % (seed, end)) for end in (".k", ".out"))
     with open(deck, "w", encoding="ascii") as file:
         file.write(text)
-    done = subprocess.run(
-        [program, deck, "-o", out, "--quiet"], capture_output=True, text=True
-    )
+    done = subprocess.run([program, deck, "-o", out, "--quiet"], capture_output=True, text=True)
     if done.returncode not in (0, 1):
         return "exit code %d: %s" % (done.returncode, done.stderr), 0.0, 0.0, False
-    nodes, energy = (tables.read_table(os.path.join(out, t + ".tab")) for t in ("nodout", "glstat"))
+    nodes, energy = (
+        tables.read_table(os.path.join(out, t + ".tab")) for t in ("nodout", "glstat")
+    )
     places = np.stack([nodes[c] for c in "xyz"], axis=1).reshape(-1, len(x) + len(y), 3)
     deep = max(overlap(p[: len(x)], e, p[len(x) :], f) for p in places)
     rise = (energy["total"] - energy["initial"] - energy["unsolved"]).max()
@@ -175,8 +176,15 @@ def main():
     print(
         "%d encounters, %d met; warned of %d, stopped %d; deepest in silence %.3g edge; largest "
         "rise of the energy %.2g; %d faults"
-        % (len(found), sum(r[3] for _, r in found), ended.count("warned"), ended.count("stopped"),
-           max(silent, default=0.0), max(r[2] for _, r in found), faults)
+        % (
+            len(found),
+            sum(r[3] for _, r in found),
+            ended.count("warned"),
+            ended.count("stopped"),
+            max(silent, default=0.0),
+            max(r[2] for _, r in found),
+            faults,
+        )
     )
     return 1 if faults else 0
 

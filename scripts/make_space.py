@@ -36,8 +36,15 @@ def real(x, width=10):
 def fields(*values):
     """A card of fields of 10 columns; None is blank."""
     return "".join(
-        " " * 10 if v is None else "%10d" % v if isinstance(v, int)
-        else "%10s" % v if isinstance(v, str) else real(v)
+        (
+            " " * 10
+            if v is None
+            else (
+                "%10d" % v
+                if isinstance(v, int)
+                else "%10s" % v if isinstance(v, str) else real(v)
+            )
+        )
         for v in values
     ).rstrip()
 
@@ -59,15 +66,25 @@ def grid(counts, place):
     x = np.array([place(*p) for p in number])
     ring = ((0, 0), (1, 0), (1, 1), (0, 1))
     cells = itertools.product(*(range(c) for c in counts))
-    return x, [[number[i + a, j + b, k + c] for c in (0, 1) for a, b in ring] for i, j, k in cells]
+    return x, [
+        [number[i + a, j + b, k + c] for c in (0, 1) for a, b in ring] for i, j, k in cells
+    ]
 
 
 def split(elements):
     """Six tetrahedra around one diagonal of each hexahedron."""
     out = []
     for h in elements:
-        corner = {(0, 0, 0): 0, (1, 0, 0): 1, (1, 1, 0): 2, (0, 1, 0): 3,
-                  (0, 0, 1): 4, (1, 0, 1): 5, (1, 1, 1): 6, (0, 1, 1): 7}
+        corner = {
+            (0, 0, 0): 0,
+            (1, 0, 0): 1,
+            (1, 1, 0): 2,
+            (0, 1, 0): 3,
+            (0, 0, 1): 4,
+            (1, 0, 1): 5,
+            (1, 1, 1): 6,
+            (0, 1, 1): 7,
+        }
         for order in itertools.permutations(range(3)):
             at, path = [0, 0, 0], [0]
             for d in order:
@@ -90,15 +107,25 @@ def head(title, end, step, mass="CONSISTENT", theta=0.5, static=False):
 
 
 NODE = ["*NODE", "$#   nid               x               y               z"]
-SOLID = ["*ELEMENT_SOLID",
-         "$#   eid     pid      n1      n2      n3      n4      n5      n6      n7      n8"]
+SOLID = [
+    "*ELEMENT_SOLID",
+    "$#   eid     pid      n1      n2      n3      n4      n5      n6      n7      n8",
+]
 
 
 def part(number, name, form, density, young, poisson):
-    return ["*PART", name, "$#     pid     secid       mid", fields(number, number, number),
-            "*SECTION_SOLID", "$#   secid    elform", fields(number, form),
-            "*MAT_ELASTIC", "$#     mid        ro         e        pr",
-            fields(number, density, young, poisson)]
+    return [
+        "*PART",
+        name,
+        "$#     pid     secid       mid",
+        fields(number, number, number),
+        "*SECTION_SOLID",
+        "$#   secid    elform",
+        fields(number, form),
+        "*MAT_ELASTIC",
+        "$#     mid        ro         e        pr",
+        fields(number, density, young, poisson),
+    ]
 
 
 def node_set(number, ids):
@@ -108,9 +135,13 @@ def node_set(number, ids):
 
 
 def contact(mu, a=1, b=2):
-    return ["*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
-            "$#   surfa     surfb  surfatyp  surfbtyp: 3 = parts", fields(a, b, 3, 3),
-            "$#      fs", fields(mu)]
+    return [
+        "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
+        "$#   surfa     surfb  surfatyp  surfbtyp: 3 = parts",
+        fields(a, b, 3, 3),
+        "$#      fs",
+        fields(mu),
+    ]
 
 
 def velocity(ids, v):
@@ -155,7 +186,10 @@ digits of the deck, not of the scheme, whose error is 1e-14 (tests/decks/space_c
 Drawn by: scripts/plot_fields.py two_bars_turned.out --field PRESSURE
 expect: rcforc side=1 iy last %.9f +- 1e-7
 expect: glstat total last 0.01 +- 1e-7
-expect: matsum part=1 vx last %.8f +- 1e-6""" % (-2.0e-2 * axis[1], -axis[0])
+expect: matsum part=1 vx last %.8f +- 1e-6""" % (
+        -2.0e-2 * axis[1],
+        -axis[0],
+    )
     out = head("two bars in space", 0.04, step, "DISPERSION")
     out += NODE + nodes(x) + nodes(y, 1001) + SOLID + solids(e, 1, 1) + solids(e, 2, 1001, 1001)
     out += part(1, "left", 1, 1e-3, 1000.0, 0.0) + part(2, "right", 1, 1e-3, 1000.0, 0.0)
@@ -178,8 +212,13 @@ def spinning_tube():
         r, angle = (inner, outer)[ring], 2 * pi * a / corners
         x[node(k, ring, a)] = r * cos(angle), r * sin(angle), length * k / n
     e = [
-        [node(m, ring, b) for m in (k, k + 1) for b, ring in ((a, 0), (a, 1), (a + 1, 1), (a + 1, 0))]
-        for k in range(n) for a in range(corners)
+        [
+            node(m, ring, b)
+            for m in (k, k + 1)
+            for b, ring in ((a, 0), (a, 1), (a + 1, 1), (a + 1, 0))
+        ]
+        for k in range(n)
+        for a in range(corners)
     ]
     v = scale * (np.cross([0, 0, 1], x) - [0, 0, 1])
     area = corners / 2 * sin(2 * pi / corners) * (outer**2 - inner**2)
@@ -200,7 +239,9 @@ the bounds are the six digits of the velocities here. Sticking (friction .8) it 
 expect: rwforc iz last %.9g +- 1e-8
 expect: matsum vz last 1e-3 +- 1e-9
 expect: glstat residual last 0.0 +- 1e-11""" % (8 * scale * area)
-    text += "\nThe angular momentum falls by %.6g (column angz of glstat)." % (8 * mu * scale * area * lever)
+    text += "\nThe angular momentum falls by %.6g (column angz of glstat)." % (
+        8 * mu * scale * area * lever
+    )
     out = head("a tube that spins on a wall", step * (2 * n + 20), step, "DISPERSION")
     out += NODE + nodes(x) + SOLID + solids(e, 1, 1) + part(1, "tube", 1, 1.0, 1.0, 0.0)
     out += VELOCITY + velocity(range(1, 1 + len(x)), v)
@@ -223,9 +264,13 @@ def ball_on_plate():
 
     def ball(i, j, k):
         a, b, c = side[i], side[j], 2 * height[k] - 1
-        q = np.array([a * sqrt(1 - b * b / 2 - c * c / 2 + b * b * c * c / 3),
-                      b * sqrt(1 - a * a / 2 - c * c / 2 + a * a * c * c / 3),
-                      c * sqrt(1 - a * a / 2 - b * b / 2 + a * a * b * b / 3)])
+        q = np.array(
+            [
+                a * sqrt(1 - b * b / 2 - c * c / 2 + b * b * c * c / 3),
+                b * sqrt(1 - a * a / 2 - c * c / 2 + a * a * c * c / 3),
+                c * sqrt(1 - a * a / 2 - b * b / 2 + a * a * b * b / 3),
+            ]
+        )
         return radius * (q + [0, 0, 1]) + [0, 0, 1e-3]
 
     x, e = grid((6, 6, 10), ball)
@@ -234,7 +279,13 @@ def ball_on_plate():
     stiff = young / (1 - poisson**2) / 2
     mass = density * 4 / 3 * pi * radius**3
     time = 2.86827 * (mass**2 / (radius * stiff**2 * speed)) ** 0.2
-    force = 4 / 3 * stiff * sqrt(radius) * (15 * mass * speed**2 / (16 * stiff * sqrt(radius))) ** 0.6
+    force = (
+        4
+        / 3
+        * stiff
+        * sqrt(radius)
+        * (15 * mass * speed**2 / (16 * stiff * sqrt(radius))) ** 0.6
+    )
     step = time / 200
     text = r"""An elastic ball falls on an elastic plate: a quarter of both, non-matching meshes, Hertz's impact.
 
@@ -252,14 +303,22 @@ Drawn by: scripts/plot_fields.py ball_on_plate.out --field PRESSURE
 expect: rcforc side=1 fn max %.4f at least
 expect: rcforc side=1 fz last 0.0 +- 1e-9
 expect: matsum part=1 vz last 0.97 +- 0.05
-expect: glstat residual last 0.0 +- 1e-11""" % (time, force, 0.94 * force / 4)
+expect: glstat residual last 0.0 +- 1e-11""" % (
+        time,
+        force,
+        0.94 * force / 4,
+    )
     out = head("a ball on a plate", 1.5e-3 + 1.2 * time, step)
     out += NODE + nodes(x) + nodes(y, 2001) + SOLID + solids(e, 1, 1) + solids(f, 2, 2001, 2001)
-    out += part(1, "ball", 1, density, young, poisson) + part(2, "plate", 1, density, young, poisson)
+    out += part(1, "ball", 1, density, young, poisson) + part(
+        2, "plate", 1, density, young, poisson
+    )
     both = [(1 + k, p) for k, p in enumerate(x)] + [(2001 + k, p) for k, p in enumerate(y)]
     out += node_set(1, [i for i, p in both if abs(p[0]) < 1e-9])
     out += node_set(2, [i for i, p in both if abs(p[1]) < 1e-9])
-    out += node_set(3, [i for i, p in both if i > 2000 and (max(p[0], p[1]) > 2 - 1e-9 or p[2] < -2 + 1e-9)])
+    out += node_set(
+        3, [i for i, p in both if i > 2000 and (max(p[0], p[1]) > 2 - 1e-9 or p[2] < -2 + 1e-9)]
+    )
     out += ["*BOUNDARY_SPC_SET", "$#    nsid       cid      dofx      dofy      dofz"]
     out += [fields(1, 0, 1, 0, 0), fields(2, 0, 0, 1, 0), fields(3, 0, 1, 1, 1)]
     out += VELOCITY + velocity(range(1, 1 + len(x)), [[0, 0, -speed]] * len(x)) + contact(0.0)
@@ -298,6 +357,7 @@ expect: rcforc side=1 iz max 0.6 at least"""
 
 def roofs():
     """Two roofs that meet ridge across ridge."""
+
     def roof(n=5, length=4.0):
         x, e = [], []
         for i in range(n + 1):
@@ -351,7 +411,11 @@ The velocity falls by mu g t, to %.4g at t = .25, and the block has gone v t - m
 weight at once, so that it swings up and down by half of its weight, and friction with it: 1 %% of the velocity.
 Drawn by: scripts/plot_fields.py sliding_tetrahedra.out --field FORCE
 expect: matsum part=1 vx last %.4g +- 0.01
-expect: glstat residual last 0.0 +- 1e-11""" % (left, speed * end - mu * gravity * end**2 / 2, left)
+expect: glstat residual last 0.0 +- 1e-11""" % (
+        left,
+        speed * end - mu * gravity * end**2 / 2,
+        left,
+    )
     out = head("a block of tetrahedra", end, 0.0005, theta=0.6)
     out += NODE + nodes(x) + nodes(y, 1001) + SOLID + solids(e, 1, 1) + solids(f, 2, 1001, 1001)
     out += part(1, "block", 10, 1.0, 1e4, 0.3) + part(2, "plate", 10, 1.0, 1e4, 0.3)
@@ -364,8 +428,12 @@ expect: glstat residual last 0.0 +- 1e-11""" % (left, speed * end - mu * gravity
 
 
 DECKS = {
-    "two_bars_turned": two_bars, "spinning_tube": spinning_tube, "ball_on_plate": ball_on_plate,
-    "oblique_block": oblique_block, "roofs": roofs, "sliding_tetrahedra": sliding_tetrahedra,
+    "two_bars_turned": two_bars,
+    "spinning_tube": spinning_tube,
+    "ball_on_plate": ball_on_plate,
+    "oblique_block": oblique_block,
+    "roofs": roofs,
+    "sliding_tetrahedra": sliding_tetrahedra,
 }
 
 

@@ -1,5 +1,5 @@
-"""Pictures of solids for plot_fields.py: the faces that one element alone has, in the colour of a
-quantity of their elements, or of their nodes, seen from a corner."""
+"""Pictures of solids for plot_fields.py: the faces that one element alone has, in the colour of
+a quantity of their elements, or of their nodes, seen from a corner."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -37,17 +37,33 @@ class Bars:
 
     speed, length, gap, n = 1000.0, 10.0, 0.02, 20
 
-    def __init__(self, turn, section=(2, 2), other=None, form="HEX8", mu=0.3, shift=0.0,
-                 swap=False, first=(1, 1001), more=()):
+    def __init__(
+        self,
+        turn,
+        section=(2, 2),
+        other=None,
+        form="HEX8",
+        mu=0.3,
+        shift=0.0,
+        swap=False,
+        first=(1, 1001),
+        more=(),
+    ):
         n, length = self.n, self.length
         self.step = length / n / self.speed
         a = Box((n, *section), (length, 1.0, 1.0), form)
-        b = Box((n, *(other or section)), (length, 1.0, 1.0), form,
-                origin=(length + self.gap, 0.0, 0.0))
+        b = Box(
+            (n, *(other or section)),
+            (length, 1.0, 1.0),
+            form,
+            origin=(length + self.gap, 0.0, 0.0),
+        )
         if shift:
             chance = np.random.default_rng(3)
             move = chance.uniform(-shift, shift, (section[0] + 1, section[1] + 1, 2))
-            for box, (p, r) in itertools.chain(*([(x, i) for i in x.grid.items()] for x in (a, b))):
+            for box, (p, r) in itertools.chain(
+                *([(x, i) for i in x.grid.items()] for x in (a, b))
+            ):
                 for d in (1, 2):
                     if 0 < p[d] < section[d - 1]:
                         box.x[r, d] += move[p[1], p[2], d - 1]
@@ -59,8 +75,13 @@ class Bars:
         lines += velocities(range(len(b.x)), -self.axis, first[1])[1:]
         lines += contact(mu, "2,1" if swap else "1,2") + list(more)
         lines += ["*DATABASE_HISTORY_NODE"] + ["%d," % (first[0] + r) for r in a.on(0, length)]
-        self.text = deck(lines, self.step, 0.04, mass="DISPERSION,0",
-                         tables=("GLSTAT", "RCFORC", "NODOUT", "SLEOUT", "NCFORC"))
+        self.text = deck(
+            lines,
+            self.step,
+            0.04,
+            mass="DISPERSION,0",
+            tables=("GLSTAT", "RCFORC", "NODOUT", "SLEOUT", "NCFORC"),
+        )
 
     def judge(self, name):
         """Errors of displacement and force against the exact ones, change of energy, residual."""
@@ -76,7 +97,7 @@ class Bars:
         t = force["time"][side]
         pressed = (t > 0.01 + 0.5 * self.step) & (t < 0.03 + 0.5 * self.step)
         check(pressed.sum() == 2 * self.n, name + ": steps of contact")
-        worst = np.abs(np.abs(f[pressed]) - 1.0).max()    # rho c v0 A
+        worst = np.abs(np.abs(f[pressed]) - 1.0).max()  # rho c v0 A
         rise = np.abs(energy["total"] / energy["total"][0] - 1.0).max()
         return off, worst, rise, np.abs(energy["residual"]).max()
 
@@ -85,8 +106,13 @@ def space_bars():
     """Matching faces, friction, three orientations, both orders, three forms, distorted sections:
     exact but for round-off of 80 steps (1e-14 each, times the digits that gaps lose)."""
     cases = [("along " + k, Bars(turn)) for k, turn in TURNS.items()]
-    cases += [("swapped", Bars(TURNS["turned"], swap=True)), ("distorted", Bars(np.eye(3), shift=0.1))]
-    cases += [(form, Bars(TURNS["turned again"], form=form)) for form in ("HEX8MEAN", "HEX8MODE")]
+    cases += [
+        ("swapped", Bars(TURNS["turned"], swap=True)),
+        ("distorted", Bars(np.eye(3), shift=0.1)),
+    ]
+    cases += [
+        (form, Bars(TURNS["turned again"], form=form)) for form in ("HEX8MEAN", "HEX8MODE")
+    ]
     for name, bars in cases:
         off, force, energy, residual = bars.judge(name)
         at_most(off, 1.0e-11, name + ": displacement")
@@ -97,7 +123,8 @@ def space_bars():
 
 def space_bars_unequal():
     """3 against 2 elements a side: resultants and energy are exact, stresses are not; 3e-3 is 1.5
-    times what an independent program has (2.0e-3). With the coarse side exact it is 8.7e-3 there."""
+    times what an independent program has (2.0e-3). With the coarse side exact it is 8.7e-3 there.
+    """
     for name, a, b in (("3:2", (3, 3), (2, 2)), ("2:3", (2, 2), (3, 3))):
         off, force, energy, residual = Bars(np.eye(3), a, b).judge(name)
         at_most(off, 3.0e-3, name + ": displacement")
@@ -119,8 +146,10 @@ class ContactSlab(Slab):
             single = "SINGLE" in keyword
             side = [abs(int(f[k] or 0)) for k in (0, 1)]
             kind = [4 if f[k].startswith("-") else 2 for k in (0, 1)]
-            self.out.append("%d,%d,%d,%d" % (side[0], 0 if single else side[1], kind[0],
-                                             0 if single else kind[1]))
+            self.out.append(
+                "%d,%d,%d,%d"
+                % (side[0], 0 if single else side[1], kind[0], 0 if single else kind[1])
+            )
             self.out.append(",".join(f[4:7]) + ",")
         elif keyword == "*RIGIDWALL_PLANAR" and self.count == 2:
             self.out.append(line)
@@ -135,7 +164,13 @@ def space_slab_contact():
     """A slab whose nodes do not leave their planes is the plane strain body in contact too: lessons
     of parallelograms, where a node has its twin one thickness away. 1e-9 of each kind of column,
     forces 1e-6 (a gap changed by 1e-14 moves them by 4e-8)."""
-    for lesson in ("coarse_slab", "inner_corner", "sliding_block", "touch_within_a_step", "restitution"):
+    for lesson in (
+        "coarse_slab",
+        "inner_corner",
+        "sliding_block",
+        "touch_within_a_step",
+        "restitution",
+    ):
         with open(os.path.join(scenes.ROOT, "input", "lessons", lesson + ".k")) as file:
             text = file.read()
         plane, slab = run(lesson, text), run(lesson + "-slab", ContactSlab(text).text)
@@ -177,7 +212,9 @@ def roofs(turn, mu, single=False):
     lines = cards(x @ turn.T, elements) + cards(y @ turn.T, elements, 2, 1001)
     for number in (1, 2):
         lines += part("WEDGE6", density=1.0, number=number)
-    lines += velocities(range(len(x)), 0.5 * up) + velocities(range(len(y)), -0.5 * up, 1001)[1:]
+    lines += (
+        velocities(range(len(x)), 0.5 * up) + velocities(range(len(y)), -0.5 * up, 1001)[1:]
+    )
     if single:
         lines += ["*CONTACT_AUTOMATIC_SINGLE_SURFACE", "0,0,5", "%r," % mu]
     else:
@@ -216,7 +253,10 @@ def space_shots():
     edge nothing goes through in silence, deeper than the step. The energy never rises: what purses
     pay was taken before."""
     for share, count, deepest, most in ((0.05, 40, 3.0e-2, 3), (0.5, 20, 0.5, 20)):
-        found = [collide_space.encounter(1000 + seed, share, scenes.BIPACT, scenes.TMP) for seed in range(count)]
+        found = [
+            collide_space.encounter(1000 + seed, share, scenes.BIPACT, scenes.TMP)
+            for seed in range(count)
+        ]
         silent = [deep for how, deep, _, _ in found if how == "ran"]
         at_most(max(silent), deepest, "step %g edge: silent overlap" % share)
         at_most(max(rise for _, _, rise, _ in found), 1.0e-9, "step %g: energy" % share)
@@ -226,24 +266,45 @@ def space_shots():
         check(sum(hit for _, _, _, hit in found) > count // 2, "most of them meet")
 
 
-def block_scene(turn=np.eye(3), swap=False, first=(1, 1001), order=1, mu=0.3, off=(0.31, 0.27),
-                fine=(3, 3, 2), coarse=(1, 1, 1), mirror=1.0, scheme="THETA,0.5,0.5",
-                mass="CONSISTENT,0", more=(), end=0.08):
+def block_scene(
+    turn=np.eye(3),
+    swap=False,
+    first=(1, 1001),
+    order=1,
+    mu=0.3,
+    off=(0.31, 0.27),
+    fine=(3, 3, 2),
+    coarse=(1, 1, 1),
+    mirror=1.0,
+    scheme="THETA,0.5,0.5",
+    mass="CONSISTENT,0",
+    more=(),
+    end=0.08,
+):
     """A block that falls obliquely on a slab: deck."""
     a = Box(coarse, (2.0, 2.0, 1.0), origin=(0.0, 0.0, -1.0))
     b = Box(fine, (0.9, 0.9, 0.6), origin=(*off, 0.0337))
     flip = np.diag([mirror, 1.0, 1.0])
     lines = []
     for box, number, start in ((a, 1, first[0]), (b, 2, first[1])):
-        elements = [[e[i] for i in (1, 0, 3, 2, 5, 4, 7, 6)] for e in box.elements] \
-            if mirror < 0 else box.elements
+        elements = (
+            [[e[i] for i in (1, 0, 3, 2, 5, 4, 7, 6)] for e in box.elements]
+            if mirror < 0
+            else box.elements
+        )
         lines += cards(box.x @ (turn @ flip).T, elements[::order], number, start)
     lines += part(density=1.0) + part(density=1.0, number=2)
     v = turn @ flip @ np.array([0.3, -0.2, -1.0])
     lines += velocities(range(len(b.x)), v, first[1])
     lines += contact(mu, "2,1" if swap else "1,2") + list(more)
-    return deck(lines, 0.001, end, scheme=scheme, mass=mass,
-                tables=("GLSTAT", "RCFORC", "SLEOUT", "MATSUM"))
+    return deck(
+        lines,
+        0.001,
+        end,
+        scheme=scheme,
+        mass=mass,
+        tables=("GLSTAT", "RCFORC", "SLEOUT", "MATSUM"),
+    )
 
 
 def motion(folder):
@@ -258,7 +319,9 @@ def space_invariance():
     fine."""
     plain = motion(run("plain", block_scene()))
     for name, options in (
-        ("swapped", {"swap": True}), ("numbers", {"first": (5001, 17)}), ("order", {"order": -1}),
+        ("swapped", {"swap": True}),
+        ("numbers", {"first": (5001, 17)}),
+        ("order", {"order": -1}),
     ):
         other = motion(run(name, block_scene(**options)))
         at_most(np.abs(other - plain).max(), 1.0e-9, name)
@@ -269,13 +332,15 @@ def space_invariance():
     other = motion(run("mirrored", block_scene(mirror=-1.0)))
     at_most(np.abs(other * [-1, 1, 1, -1, 1, 1] - plain).max(), 1.0e-9, "mirrored")
     for name, options in (
-        ("fine on coarse", {}), ("coarse on fine", {"fine": (1, 1, 1), "coarse": (4, 4, 2)}),
-        ("over the edge", {"off": (1.4, -0.3)}), ("over a corner", {"off": (1.5, 1.6)}),
+        ("fine on coarse", {}),
+        ("coarse on fine", {"fine": (1, 1, 1), "coarse": (4, 4, 2)}),
+        ("over the edge", {"off": (1.4, -0.3)}),
+        ("over a corner", {"off": (1.5, 1.6)}),
     ):
         folder = run(name, block_scene(**options))
         force, energy = table(folder, "rcforc"), table(folder, "glstat")
         first = force["time"][force["fn"] > 0.0].min()
-        within(first, 0.0335, 0.0355, name + ": the first force")    # the gap is .0337, v 1
+        within(first, 0.0335, 0.0355, name + ": the first force")  # the gap is .0337, v 1
         at_most(energy["total"].max() / energy["total"][0] - 1.0, 1.0e-9, name + ": energy")
         at_most(table(folder, "sleout")["penetration"].max(), 1.0e-2 * 0.2, name + ": overlap")
 
@@ -288,7 +353,9 @@ def space_contact_ledgers():
         mass = "LUMPED,0" if scheme == "CDLAGRANGE," else masses[0]
         text = block_scene(scheme=scheme, mass=mass, end=0.06)
         if scheme == "HHT,":
-            text = text.replace("*CONTROL_IMPLICIT_DYNAMICS\n1,", "*CONTROL_IMPLICIT_DYNAMICS\n1,,,,,,,-0.2")
+            text = text.replace(
+                "*CONTROL_IMPLICIT_DYNAMICS\n1,", "*CONTROL_IMPLICIT_DYNAMICS\n1,,,,,,,-0.2"
+            )
         folder = run("ledger", text)
         rows = table(folder, "glstat")
         at_most(np.abs(rows["residual"]).max(), ROUND_OFF, "%s: ledger" % scheme)
@@ -317,15 +384,26 @@ def space_moving_walls():
             lines += ["*RIGIDWALL_PLANAR_MOVING", "0,", plane, "%r,1.0" % mass]
         else:
             lines += ["*RIGIDWALL_GEOMETRIC_FLAT_MOTION", "0,", plane, "0.0,"]
-            lines += ["1,0,%r,%r,%r" % tuple(map(float, axis)), "*DEFINE_CURVE", "1,", "0.0,1.0", "1.0,1.0"]
-        folder = run("plane", deck(lines, step, 60 * step, mass="DISPERSION,0",
-                                   tables=("GLSTAT", "RWFORC")))
+            lines += [
+                "1,0,%r,%r,%r" % tuple(map(float, axis)),
+                "*DEFINE_CURVE",
+                "1,",
+                "0.0,1.0",
+                "1.0,1.0",
+            ]
+        folder = run(
+            "plane",
+            deck(lines, step, 60 * step, mass="DISPERSION,0", tables=("GLSTAT", "RWFORC")),
+        )
         rows = table(folder, "rwforc")
         some = (rows["time"] > 1.5 * step) & (rows["time"] < 0.018)
         t = rows["time"][some] - 0.5 * step
         exact = np.exp(-t / mass) if massive else np.ones(len(t))
-        at_most(np.abs(rows["fn"][some] / exact - 1.0).max(), 2.0e-4 if massive else 1.0e-11,
-                "%s, %s: force" % (name, "mass" if massive else "motion"))
+        at_most(
+            np.abs(rows["fn"][some] / exact - 1.0).max(),
+            2.0e-4 if massive else 1.0e-11,
+            "%s, %s: force" % (name, "mass" if massive else "motion"),
+        )
         at_most(np.abs(table(folder, "glstat")["residual"]).max(), ROUND_OFF, name + ": ledger")
 
 
@@ -334,9 +412,21 @@ def space_rigid_parts():
     closes with the work of the motion. One that may turn or move freely is refused by name."""
     for name, con, more, speed in (
         ("held", "1.0,7,7", [], 0.0),
-        ("driven", "1.0,4,7", ["*BOUNDARY_PRESCRIBED_MOTION_RIGID", "1,3,0,1", "*DEFINE_CURVE", "1,",
-                               "0.0,1.0", "1.0,1.0"], 1.0),
-        ("turns", "1.0,7,4", [], None), ("free", "1.0,4,7", [], None),
+        (
+            "driven",
+            "1.0,4,7",
+            [
+                "*BOUNDARY_PRESCRIBED_MOTION_RIGID",
+                "1,3,0,1",
+                "*DEFINE_CURVE",
+                "1,",
+                "0.0,1.0",
+                "1.0,1.0",
+            ],
+            1.0,
+        ),
+        ("turns", "1.0,7,4", [], None),
+        ("free", "1.0,4,7", [], None),
     ):
         text = block_scene(more=more, end=0.06)
         steel = "\n".join(["*MAT_ELASTIC", "1,1.0,1000.0,0.3"])
@@ -344,7 +434,9 @@ def space_rigid_parts():
         text = text.replace(steel, "*MAT_RIGID\n1,1.0,1000.0,0.3\n%s\n0.0," % con)
         folder, code, errors = run_text(name, text)
         if speed is None:
-            check(code == 2 and "rigid part 1 may" in errors, "%s: %d %s" % (name, code, errors))
+            check(
+                code == 2 and "rigid part 1 may" in errors, "%s: %d %s" % (name, code, errors)
+            )
             continue
         check(code == 0, "%s: exit code %d: %s" % (name, code, errors))
         at_most(np.abs(table(folder, "matsum", part=1)["vz"] - speed).max(), 1.0e-12, name)
