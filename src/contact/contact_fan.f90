@@ -4,6 +4,7 @@
 !> outside (Baerentzen and Aanaes 2005).
 module contact_fan
   use base_kinds, only: wp, zero, one
+  use contact_features, only: degree
   use contact_sight, only: from_node
   use contact_skin, only: skin_t
   use linalg_dense, only: cross
@@ -12,12 +13,16 @@ module contact_fan
 
   type, public :: fan_t
     logical :: is_all = .false.            !< a node without a boundary: it faces everything
+    logical :: is_reflex = .false.         !< some edge leaves it to the front of the mean normal
     integer :: facets = 0, edges = 0
     real(wp), allocatable :: normal(:, :)  !< (3, *) outward at the vertex
     real(wp), allocatable :: size(:)       !< (*) of the facets [L]
     real(wp), allocatable :: edge(:, :)    !< (3, *) unit vectors from the vertex
     real(wp) :: mean(3) = zero             !< unit vector
   end type fan_t
+
+  !> Sine by which an edge stands before the mean normal of a reflex vertex.
+  real(wp), parameter :: reflex = sin(10.0_wp*degree)
 
   public :: size_fan, open_fan, faces_fan, supports
 
@@ -54,6 +59,7 @@ contains
     integer :: i, v
     v = skin%at(node)
     fan%is_all = v == 0
+    fan%is_reflex = .false.
     fan%facets = 0
     fan%edges = 0
     if (fan%is_all) return
@@ -73,6 +79,7 @@ contains
         d = x(:, other) - x(:, node)
         if (.not. is_reference) d = from_node(x, u, node, other)
         d = d/max(norm2(d), tiny(one))
+        fan%is_reflex = fan%is_reflex .or. dot_product(d, fan%mean) > reflex
       end associate
     end do
   end subroutine open_fan
@@ -102,13 +109,15 @@ contains
   end subroutine corner_normal
 
   !> Does a plane with normal n face the vertex: do its edges leave the plane to the front, or
-  !> fall behind it by a sine of no more than `beyond`?
+  !> fall behind it by a sine of no more than `beyond`? At a reflex vertex the mean normal alone
+  !> is asked.
   pure logical function faces_fan(n, fan, beyond) result(faces)
     real(wp), intent(in) :: n(3), beyond
     type(fan_t), intent(in) :: fan
     faces = fan%is_all
     if (faces) return
-    faces = dot_product(fan%mean, n) < zero .and. supports(-n, fan%edge(:, :fan%edges), beyond)
+    faces = dot_product(fan%mean, n) < zero
+    if (faces .and. .not. fan%is_reflex) faces = supports(-n, fan%edge(:, :fan%edges), beyond)
   end function faces_fan
 
   !> Do all directions (3, *) stay behind the plane with normal n, to a sine?

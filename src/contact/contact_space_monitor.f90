@@ -5,6 +5,7 @@ module contact_space_monitor
   use base_kinds, only: wp, zero, one
   use contact_emit, only: too_deep
   use contact_fan, only: faces_fan, open_fan
+  use contact_features, only: end_tolerance
   use contact_near, only: is_behind
   use contact_pairing, only: overlap_t, no_gap, note_overlap
   use contact_places, only: share_at_corner, deepest
@@ -14,7 +15,8 @@ module contact_space_monitor
   use contact_space_edges, only: crossing_t, cross_edges
   use contact_space_gap, only: gap_before, all_gap
   use contact_space_view, only: sine_of_facing
-  use contact_space_whole, only: deepest_node_in_space, deepest_edge_in_space, edge_inside
+  use contact_space_whole, only: deepest_node_in_space, deepest_edge_in_space, &
+      deepest_inside, edge_inside
   use model_data, only: model_t
   implicit none
   private
@@ -61,10 +63,44 @@ contains
     associate (node => this%side(s)%node(this%near(s)%node(i)), &
         gap => this%near(s)%distance(i), skin => this%skin(t))
       call gap_before(skin, list, x, u, place_of_node(x, u, node), this%sight%other, gap, facet)
-      if (gap >= -least_allowance(this, s, this%near(s)%node(i)) .or. this%is_self) return
-      call all_gap(skin, x, u, place_of_node(x, u, node), this%sight%other, gap, facet)
+      if (gap >= -least_allowance(this, s, this%near(s)%node(i))) return
+      if (this%is_self) then
+        call look_again_in_self(this, x, u, node, gap, facet)
+      else
+        call all_gap(skin, x, u, place_of_node(x, u, node), this%sight%other, gap, facet)
+      end if
     end associate
   end subroutine find_gap
+
+  !> A node that is deep behind a facet of its own surface: of another body it is asked for
+  !> with all facets of those; of its own, behind whose far side it always is, a place just
+  !> outside the node must be inside the body again.
+  subroutine look_again_in_self(this, x, u, node, gap, facet)
+    class(space_t), intent(inout) :: this
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    integer, intent(in) :: node
+    real(wp), intent(inout) :: gap
+    integer, intent(inout) :: facet
+    real(wp), parameter :: outward = 1.0e-3_wp     ! edges
+    real(wp) :: from(3, 2), outside
+    integer :: k, v, body, other
+    associate (skin => this%skin(1))
+      v = skin%at(node)
+      if (v == 0) return
+      body = skin%body(skin%facet(skin%first_facet(v)))
+      from = place_of_node(x, u, node)
+      if (skin%body(facet) == body) then
+        call open_fan(skin, node, x, u, .false., this%sight%fan)
+        from(:, 1) = from(:, 1) + outward*skin%shortest(v)*this%sight%fan%mean
+        call gap_before(skin, pack([(k, k=1, skin%facets)], skin%body == body), x, u, from, &
+            this%sight%other, outside, other)
+        if (outside >= zero) gap = -gap
+      else
+        call gap_before(skin, pack([(k, k=1, skin%facets)], skin%body /= body), x, u, from, &
+            this%sight%other, gap, facet)
+      end if
+    end associate
+  end subroutine look_again_in_self
 
   !> No node may be less deep than this and still need a row [L].
   pure real(wp) function least_allowance(this, s, k)
@@ -269,6 +305,8 @@ contains
           model%x, u, this%is_self, this%leaves_out, this%sight%other, overlap)
       call deepest_edge_in_space(this%skin(s), this%skin(t), this%facets(t), model%x, u, &
           this%is_self, this%leaves_out, this%sight%other, overlap)
+      if (overlap%share <= end_tolerance) call deepest_inside(this%skin(s), this%skin(t), &
+          this%facets(t), model%x, u, this%is_self, this%leaves_out, this%sight%other, overlap)
     end do
   end subroutine measure_whole_of
 

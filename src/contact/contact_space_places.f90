@@ -4,7 +4,7 @@
 module contact_space_places
   use base_kinds, only: wp, zero, one
   use contact_fan, only: open_fan
-  use contact_features, only: smooth_angle, end_tolerance, degree
+  use contact_features, only: smooth_angle, end_tolerance
   use contact_places, only: view_t
   use contact_sight, only: end_of_edge, on_vertex
   use contact_skin, only: skin_t
@@ -13,8 +13,6 @@ module contact_space_places
       size_before, allowance_in_space
   implicit none
   private
-
-  real(wp), parameter :: reflex = sin(10.0_wp*degree)
 
   public :: find_space_places
 
@@ -35,11 +33,8 @@ contains
     sight%places = 0
     sight%n = 0
     call open_fan(own, node, x, u, view%is_reference, sight%fan)
-    if (.not. sight%fan%is_all) then
-      do j = 1, sight%fan%edges      ! a reflex vertex is never hit first
-        if (dot_product(sight%fan%edge(:, j), sight%fan%mean) > reflex) return
-      end do
-    end if
+    ! A reflex vertex is not hit first; it has a row only where the end of a step asks for it.
+    if (sight%fan%is_reflex .and. present(free)) return
     do j = 1, size(list)
       call see(obstacle, list(j), x, u, node, view, .true., sight)
     end do

@@ -6,14 +6,14 @@ module contact_space_whole
   use contact_fan, only: fan_t
   use contact_pairing, only: overlap_t, note_overlap
   use contact_pierce, only: pierce
-  use contact_sight, only: seen_t, place_of_node
+  use contact_sight, only: seen_t, place_of_node, area_vector
   use contact_skin, only: skin_t
   use contact_space_gap, only: gap_of_nearest
   use contact_space_tree, only: space_tree_t, items_in_box, nearest_facet
   use contact_surface, only: surface_t
   implicit none
   private
-  public :: deepest_node_in_space, deepest_edge_in_space, edge_inside
+  public :: deepest_node_in_space, deepest_edge_in_space, deepest_inside, edge_inside
 
 contains
 
@@ -92,6 +92,61 @@ contains
     own_length = huge(one)
     if (v > 0) own_length = skin%shortest(v)
   end function own_length
+
+  !> Bodies whose faces lie in the same planes may overlap though no node is inside and no edge
+  !> goes through a face: places just inside every facet of `own` are asked too, in the middle,
+  !> half way to each corner and near it.
+  subroutine deepest_inside(own, skin, tree, x, u, is_self, leaves_out, fan, overlap)
+    type(skin_t), intent(in) :: own, skin
+    type(space_tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    logical, intent(in) :: is_self, leaves_out(:, :)
+    type(fan_t), intent(inout) :: fan
+    type(overlap_t), intent(inout) :: overlap
+    real(wp), parameter :: share(3) = [zero, half, 0.95_wp]
+    logical :: left_out(skin%facets)
+    real(wp) :: middle(3), corner(3)
+    integer :: k, i, j
+    if (tree%boxes%n == 0) return
+    left_out = .false.
+    do k = 1, own%facets
+      if (.not. own%is_listed(k)) cycle
+      if (is_self) call leave_out_in_space(skin, k, leaves_out, left_out)
+      middle = zero
+      do j = 1, own%corners(k)
+        middle = middle + (x(:, own%node(j, k)) + u(:, own%node(j, k)))/own%corners(k)
+      end do
+      do i = 1, size(share)
+        do j = 1, merge(own%corners(k), 1, i > 1)
+          corner = x(:, own%node(j, k)) + u(:, own%node(j, k))
+          call place_inside(own, k, skin, tree, x, u, middle + share(i)*(corner - middle), &
+              left_out, fan, overlap)
+        end do
+      end do
+    end do
+  end subroutine deepest_inside
+
+  !> Is the place just behind a point p of facet k of `own` inside the obstacle?
+  subroutine place_inside(own, k, skin, tree, x, u, p, left_out, fan, overlap)
+    type(skin_t), intent(in) :: own, skin
+    integer, intent(in) :: k
+    type(space_tree_t), intent(in) :: tree
+    real(wp), intent(in), contiguous :: x(:, :), u(:, :)
+    real(wp), intent(in) :: p(3)
+    logical, intent(in) :: left_out(:)
+    type(fan_t), intent(inout) :: fan
+    type(overlap_t), intent(inout) :: overlap
+    real(wp), parameter :: inward = 1.0e-3_wp
+    real(wp) :: from(3, 2), n(3), gap
+    integer :: facet
+    n = area_vector(own, k, x, u)
+    from(:, 1) = p - inward*own%size(k)*n/max(norm2(n), tiny(one))
+    from(:, 2) = zero
+    if (any(from(:, 1) < tree%boxes%low(:, 1) .or. from(:, 1) > tree%boxes%high(:, 1))) return
+    call whole_gap(skin, tree, x, u, from, left_out, fan, gap, facet)
+    if (gap < zero) call note_overlap(overlap, inward*own%size(k) - gap, &
+        min(own%size(k), skin%size(facet)), own%node(1, k), skin%part_id(facet), .false.)
+  end subroutine place_inside
 
   !> The deepest place of an edge of `own` between two points where it goes through the boundary
   !> of the closed obstacle.

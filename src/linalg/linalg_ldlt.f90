@@ -15,7 +15,7 @@ module linalg_ldlt
   use linalg_kernels_2, only: eliminate_2, invert_2, forward_2, backward_2
   use linalg_kernels_3, only: eliminate_3, invert_3, forward_3, backward_3
   use linalg_order, only: choose_order
-  use linalg_solver, only: solver_t, check_memory, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
   use linalg_symbolic, only: symbolic_factor
   implicit none
   private
@@ -68,7 +68,7 @@ contains
     end do
     this%info%factor_bytes = (8_i8*d*d + 4_i8)*(this%first(this%leading + 1) - 1) &
         + (4_i8*d*(d + 1) + 4_i8)*this%leading + 8_i8*(d*size(last, kind=i8))**2
-    call check_memory(this, status)
+    call demand_memory(this, status)
     if (failed(status)) return
     allocate (this%row(this%first(this%leading + 1) - 1))
     allocate (this%l(d, d, size(this%row)), this%d_inverse(d*(d + 1)/2, this%leading), &

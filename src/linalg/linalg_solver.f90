@@ -89,7 +89,7 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole, work_of, check_memory, check_graph, check_matrix, check_vectors
+  public :: solve_whole, work_of, demand_memory, check_graph, check_matrix, check_vectors
 
 contains
 
@@ -131,7 +131,7 @@ contains
 
   !> Before anything is allocated: does the factor, of factor_bytes, fit into the memory of the
   !> machine? Fails where it does not.
-  subroutine check_memory(solver, status)
+  subroutine demand_memory(solver, status)
     class(solver_t), intent(in) :: solver
     type(status_t), intent(inout) :: status
     integer(i8), parameter :: small = 100000000_i8
@@ -144,7 +144,7 @@ contains
         ' Gflop); the machine has '//to_text(there/1000000_i8)//' MB', &
         hint='an explicit scheme factors nothing; fewer contact nodes or a coarser mesh '// &
         'need less')
-  end subroutine check_memory
+  end subroutine demand_memory
 
   !> Assertions on what an engine is given to analyse: rows of the graph without gaps, and nodes
   !> of it as `last`, each once. place: the procedure that asks.

@@ -13,7 +13,7 @@ module linalg_supernodal
   use linalg_order, only: choose_order
   use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, gather_rows, &
       add_rows
-  use linalg_solver, only: solver_t, check_memory, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
   use linalg_supernodes, only: supernodes_t, find_supernodes
   implicit none
   private
@@ -74,7 +74,7 @@ contains
     this%info%factor_bytes = 8_i8*(this%panel(this%supernodes%n + 1) - 1_i8) &
         + 16_i8*this%supernodes%n + 4_i8*size(this%supernodes%row, kind=i8) &
         + 8_i8*(d*size(last, kind=i8))**2
-    call check_memory(this, status)
+    call demand_memory(this, status)
     if (failed(status)) return
     allocate (this%l(this%panel(this%supernodes%n + 1) - 1_i8), this%work(d, graph%n), &
         this%y(highest))

@@ -13,6 +13,7 @@ from scenes import at_most, check, finish, run_text, show, table, within
 from solids import Box, cards, deck, part
 
 import collide_space
+from make_space import split
 
 from space import ENERGIES, Slab, contents, run
 from space_walls import TURNS, rotation
@@ -443,6 +444,81 @@ def space_rigid_parts():
         energy = table(folder, "glstat")
         at_most(np.abs(energy["residual"]).max(), ROUND_OFF, name + ": ledger")
         check((energy["motion"][-1] > 0.1) == (speed > 0.0), name + ": work of the motion")
+
+
+def space_flush():
+    """Bodies that share the planes of their faces: where they overlap no node is inside and no edge
+    goes through a face; that is refused all the same, also at a birth. Where they only touch, or are
+    apart, a surface of several bodies is not mistaken for one that has passed through itself, though
+    its own far side is an element away."""
+    slab = Box((2, 2, 1), (2.0, 2.0, 1.0))
+    for name, origin, size, said in (
+        ("identical", (0.0, 0.0, 0.0), (2.0, 2.0, 1.0), "deep"),
+        ("shifted", (0.5, 0.3, 0.0), (2.0, 2.0, 1.0), "deep"),
+        ("within", (0.5, 0.5, 0.0), (1.0, 1.0, 0.5), "deep"),
+        ("crossing", (0.5, -1.0, 0.0), (1.0, 4.0, 1.0), "deep"),
+        ("beside", (2.0, 0.0, 0.0), (2.0, 2.0, 1.0), ""),
+        ("above", (0.0, 0.0, 5.0), (2.0, 2.0, 1.0), ""),
+    ):
+        other = Box((1, 1, 1), size, origin=origin)
+        for kind in ("TET4", "HEX8"):
+            lines = cards(slab.x, slab.elements if kind == "HEX8" else split(slab.elements))
+            lines += cards(
+                other.x, other.elements if kind == "HEX8" else split(other.elements), 2, 1001
+            )
+            lines += part(kind) + part(kind, number=2)
+            for card in (contact(0.3), ["*CONTACT_AUTOMATIC_SINGLE_SURFACE", "0,0,5", "0.3,"]):
+                folder, code, errors = run_text(name, deck(lines + card, 0.01, 0.1))
+                if said:
+                    check(code == 2 and said in errors, "%s: %d %s" % (name, code, errors))
+                else:
+                    check(code == 0 and "overlap" not in errors, "%s: %s" % (name, errors))
+        late = [contact(0.3)[0], contact(0.3)[1], "0.3,,,,,,0.05"]
+        if said:
+            folder, code, errors = run_text(name, deck(lines + late, 0.01, 0.1))
+            check(code == 1 and "born overlapped" in errors, "%s, born: %s" % (name, errors))
+
+
+def space_notch():
+    """An L-shaped channel flies against a heavy block in its corner, and its inner edge bows into the
+    block: the nodes of a reflex edge have no row before the end of a step shows that they need one, of one face at a time.
+    So they sink by what they move in two steps, .04, at most (.11 without such rows), and the monitor
+    tells of it."""
+    low = Box((2, 4, 1), (2.0, 4.0, 1.0))
+    wall = Box((1, 4, 1), (1.0, 4.0, 1.0), origin=(0.0, 0.0, 1.0))
+    x = np.unique(np.round(np.concatenate([low.x, wall.x]), 9), axis=0)
+
+    def rows(box):
+        place = {tuple(p): k for k, p in enumerate(map(tuple, x))}
+        number = [place[tuple(np.round(p, 9))] for p in box.x]
+        return [[number[n] for n in e] for e in box.elements]
+
+    channel = split(rows(low) + rows(wall))
+    block = Box((1, 1, 1), (0.9, 3.8, 0.9), origin=(1.02, 0.1, 1.02))
+    lines = cards(x, channel) + cards(block.x, split(block.elements), 2, 1001)
+    lines += part("TET4", 1000.0, 0.3, 1.0) + part("TET4", 1.0e5, 0.3, 12.0, 2)
+    lines += velocities(range(len(x)), [1.0, 0.0, 1.0]) + contact(0.0)
+    history = ["*DATABASE_HISTORY_NODE"] + ["%d," % (1 + k) for k in range(len(x))]
+    history += ["%d," % (1001 + k) for k in range(len(block.x))]
+    folder = run(
+        "notch",
+        deck(lines + history, 0.02, 0.3, tables=("GLSTAT", "SLEOUT", "RCFORC", "NODOUT")),
+    )
+    nodes = table(folder, "nodout")
+    places = np.stack([nodes[c] for c in "xyz"], axis=1).reshape(-1, len(x) + len(block.x), 3)
+    edge = [k for k, p in enumerate(x) if abs(p[0] - 1.0) + abs(p[2] - 1.0) < 1e-9]
+    corner = [len(x) + k for k, p in enumerate(block.x) if p[0] < 1.1 and p[2] < 1.1]
+    # How far the inner edge stands inside both faces of the block, whose edge is straight.
+    low = places[:, corner].min(axis=1)
+    deep = max(
+        min(p[k, 0] - q[0], p[k, 2] - q[2]) for p, q in zip(places, low) for k in edge[1:-1]
+    )
+    at_most(deep, 0.04, "notch: nodes of its edge in the block")
+    told = table(folder, "sleout")["penetration"].max()
+    within(told / deep, 0.5, 1.5, "notch: the overlap is told")
+    check(table(folder, "rcforc")["fn"].max() > 0.0, "the block meets the channel")
+    energy = table(folder, "glstat")
+    at_most(energy["total"].max() / energy["total"][0] - 1.0, 1.0e-9, "notch: energy")
 
 
 def space_refusals():
