@@ -13,7 +13,7 @@ module contact_fan
 
   type, public :: fan_t
     logical :: is_all = .false.            !< a node without a boundary: it faces everything
-    logical :: is_reflex = .false.         !< some edge leaves it to the front of the mean normal
+    logical :: is_reflex = .false.         !< an edge stands before the mean normal
     integer :: facets = 0, edges = 0
     real(wp), allocatable :: normal(:, :)  !< (3, *) outward at the vertex
     real(wp), allocatable :: size(:)       !< (*) of the facets [L]
