@@ -4,8 +4,9 @@
 module contact_facets
   use base_kinds, only: wp, zero, one, half
   use linalg_dense, only: cross
+  use model_areas, only: facet_areas
   use model_data, only: model_t
-  use model_faces, only: exterior_faces
+  use model_faces, only: exterior_facets
   implicit none
   private
 
@@ -16,28 +17,67 @@ module contact_facets
     logical, allocatable :: is_listed(:)   !< (n) it belongs to the surface
     real(wp), allocatable :: normal(:, :)  !< (3, n) outward, in the middle, reference geometry
     real(wp), allocatable :: size(:)       !< (n) square root of the area [L]
+    !> (4, n) of the area, of each corner: its sum over the facets round a node is the integral
+    !> of the shape function [L2]
+    real(wp), allocatable :: share(:, :)
   end type facets_t
 
-  public :: exterior_facets, corners_of
+  integer, parameter :: most_corners = 9   !< nodes of a face
+
+  public :: make_facets, corners_of
 
 contains
 
-  !> All exterior faces of the model, none of them listed. (Faces of quadratic elements are not
-  !> among them: contact knows linear facets.)
-  subroutine exterior_facets(model, facets)
+  !> All exterior faces of the model, none of them listed; of quadratic elements by their
+  !> linear facets.
+  subroutine make_facets(model, facets)
     type(model_t), intent(in) :: model
     type(facets_t), intent(out) :: facets
-    integer, allocatable :: owner(:)
-    integer :: k
-    call exterior_faces(model%mesh, model%nodes, 4, facets%node, owner)
+    integer, allocatable :: owner(:), facet(:)
+    integer :: k, pieces
+    call exterior_facets(model%mesh, model%nodes, 4, facets%node, owner, facet)
     facets%n = size(owner)
     facets%part = model%mesh%part(owner)
-    allocate (facets%is_listed(facets%n), facets%normal(3, facets%n), facets%size(facets%n))
+    allocate (facets%is_listed(facets%n), facets%normal(3, facets%n), facets%size(facets%n), &
+        facets%share(4, facets%n))
     facets%is_listed = .false.
+    facets%share = zero
     do k = 1, facets%n
       call measure_facet(model%x, facets, k)
+      facets%share(:corners_of(facets, k), k) = facets%size(k)**2/corners_of(facets, k)
     end do
-  end subroutine exterior_facets
+    do k = 1, facets%n
+      pieces = model%mesh%kind(model%mesh%type(owner(k)))%item%facets_a_face()
+      if (pieces > 1 .and. mod(facet(k) - 1, pieces) == 0) &
+          call share_face(model, owner(k), facet(k:k + pieces - 1), k, facets)
+    end do
+  end subroutine make_facets
+
+  !> Shares of the facets of a curved face of element e, which begin at facet k of the list: the
+  !> integral of the shape function of a node over the face, in equal parts to the facets that
+  !> have it. Corners of a triangle have none (doc/theory.md 1).
+  subroutine share_face(model, e, facet, k, facets)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: e, facet(:), k
+    type(facets_t), intent(inout) :: facets
+    !> Of the area of the face: less belongs to nobody.
+    real(wp), parameter :: least = 0.01_wp
+    real(wp) :: a(3, most_corners), part(3, most_corners), own(most_corners)
+    integer :: f, i, m, node(most_corners)
+    a = zero
+    do f = 1, size(facet)
+      call facet_areas(model%mesh, model%x, e, facet(f), node, m, part)
+      a(:, :m) = a(:, :m) + part(:, :m)
+    end do
+    own(:m) = norm2(a(:, :m), dim=1)
+    where (own(:m) < least*norm2(sum(a(:, :m), dim=2))) own(:m) = zero
+    associate (corner => facets%node(:, k:k + size(facet) - 1))
+      do i = 1, m
+        where (corner == node(i)) facets%share(:, k:k + size(facet) - 1) = &
+            own(i)/count(corner == node(i))
+      end do
+    end associate
+  end subroutine share_face
 
   pure subroutine measure_facet(x, facets, k)
     real(wp), intent(in) :: x(:, :)

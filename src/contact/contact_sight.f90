@@ -26,6 +26,7 @@ module contact_sight
     integer :: which = 0               !< edge of the net, or vertex
     logical :: is_before = .false.     !< the node stands before it, not beyond its rim
     logical :: is_kept = .false.       !< its place makes a row
+    logical :: is_dropped = .false.    !< a sharp edge of it has the row, or its other facet
   end type seen_t
 
   !> A normal nearer than this to that of the reference is taken to be it (contact_features).
@@ -84,6 +85,7 @@ contains
     n = seen%y + seen%gap*seen%normal      ! across the normal
     seen%is_before = sum(n**2) <= (end_tolerance*skin%size(facet))**2
     seen%is_kept = .false.
+    seen%is_dropped = .false.
   end subroutine see_facet
 
   !> Outward normal of a facet at a place of it.

@@ -4,7 +4,7 @@
 !> facets and those next to them, which make corners at its rim but no rows.
 module contact_skin
   use base_kinds, only: wp, zero, one
-  use contact_facets, only: facets_t, exterior_facets, corners_of
+  use contact_facets, only: facets_t, corners_of
   use contact_features, only: degree
   use linalg_dense, only: cross
   use model_bodies, only: find_bodies
@@ -21,6 +21,7 @@ module contact_skin
     integer, allocatable :: part(:), part_id(:)   !< (facets) row and id of the part
     integer, allocatable :: body(:)        !< (facets) bodies are numbered by their first node
     real(wp), allocatable :: size(:)       !< (facets) square root of the area [L]
+    real(wp), allocatable :: share(:, :)   !< (4, facets) of the area, of each corner [L2]
     real(wp), allocatable :: normal(:, :)  !< (3, facets) in the middle, reference geometry
     integer, allocatable :: ends(:, :)     !< (2, edges)
     integer, allocatable :: beside(:, :)   !< (2, edges) facets on either side; 0 = none
@@ -60,9 +61,11 @@ contains
       taken(k) = any(node_in(facets%node(:corners_of(facets, k), k)))
     end do
     skin%facets = count(taken)
-    allocate (skin%node(4, skin%facets), skin%normal(3, skin%facets))
+    allocate (skin%node(4, skin%facets), skin%normal(3, skin%facets), &
+        skin%share(4, skin%facets))
     do k = 1, 4
       skin%node(k, :) = pack(facets%node(k, :), taken)
+      skin%share(k, :) = pack(facets%share(k, :), taken)
     end do
     do k = 1, 3
       skin%normal(k, :) = pack(facets%normal(k, :), taken)

@@ -225,7 +225,8 @@ contains
                 if (dot_product(this%nodal%force(:, at), skin%normal(:, f)) > &
                     facing*force) cycle
               end if
-              area(at) = area(at) + skin%size(f)**2/skin%corners(f)
+              area(at) = area(at) &
+                  + sum(skin%share(:, f), mask=skin%node(:, f) == skin%vertex(v))
             end associate
           end do
         end do

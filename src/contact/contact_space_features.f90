@@ -55,6 +55,9 @@ contains
             [a%facet, b%facet], view, sight)
       else
         if (.not. (any(before) .or. both_at)) return
+        ! A wall holds, however deep, what stands on the far side of the top: not at this edge.
+        if (before(1) .and. .not. before(2) .and. .not. is_at(obstacle, b, e)) return
+        if (before(2) .and. .not. before(1) .and. .not. is_at(obstacle, a, e)) return
         direction(:, 1) = t
         direction(:, 2) = -t
         direction(:, 3) = cross(a%normal, t)
@@ -95,7 +98,7 @@ contains
       if (a%is_before .and. b%is_before) then
         if (.not. (a%is_kept .and. b%is_kept)) return
         held = merge(second, first, a%gap < b%gap)
-        sight%seen(first + second - held)%is_kept = .false.
+        call drop(sight%seen(first + second - held))
         if (abs(a%gap - b%gap) > 1.0e-7_wp*shorter) return
       else if (a%is_before .or. b%is_before) then
         held = merge(first, second, a%is_before)
@@ -247,8 +250,14 @@ contains
         shorter, n)
     k = sight%places
     call add_shared_place(obstacle, node, facet, y, n, shorter, view, sight)
-    if (sight%places > k .and. held > 0) sight%seen(held)%is_kept = .false.
+    if (sight%places > k .and. held > 0) call drop(sight%seen(held))
   end subroutine choose_at_feature
+
+  pure subroutine drop(seen)
+    type(seen_t), intent(inout) :: seen
+    seen%is_kept = .false.
+    seen%is_dropped = .true.
+  end subroutine drop
 
   !> Is a normal one of these, to round-off?
   pure logical function is_among(n, list)

@@ -46,6 +46,7 @@ contains
       end if
     end do
     call drop_hidden(obstacle, sight)
+    call drop_neighbours(obstacle, sight)
     do j = 1, sight%n
       if (sight%seen(j)%is_kept) call add_facet_place(obstacle, node, sight%seen(j), sight)
       sight%at(sight%seen(j)%facet) = 0
@@ -136,6 +137,23 @@ contains
       end do
     end do
   end subroutine drop_hidden
+
+  !> What an edge has decided of a facet holds for those in its plane that touch it where the
+  !> node is: at a vertex of triangles not each of them has that edge.
+  pure subroutine drop_neighbours(obstacle, sight)
+    type(skin_t), intent(in) :: obstacle
+    type(space_sight_t), intent(inout) :: sight
+    integer :: i, j
+    do i = 1, sight%n
+      do j = 1, sight%n
+        associate (a => sight%seen(i), b => sight%seen(j))
+          if (.not. (a%is_kept .and. b%is_dropped)) cycle
+          if (dot_product(a%normal, b%normal) <= cos(smooth_angle)) cycle
+          if (norm2(a%y - b%y) <= end_tolerance*obstacle%size(a%facet)) a%is_kept = .false.
+        end associate
+      end do
+    end do
+  end subroutine drop_neighbours
 
   !> The nearest first; of two whose normals are nearly the same the nearer, and of facets that
   !> are as near, at an edge or vertex of both, that with the mean normal.

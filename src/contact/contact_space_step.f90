@@ -3,10 +3,11 @@
 !> solved end shows to be missing.
 module contact_space_step
   use base_kinds, only: wp, zero, one
+  use contact_emit, only: too_deep
   use contact_near, only: is_behind
   use contact_overlap, only: update_front
   use contact_pairing, only: late_t
-  use contact_places, only: view_t
+  use contact_places, only: view_t, share_of_edge
   use contact_rows, only: rows_t
   use contact_space_base, only: space_t, watched_sides, facing_side, view_of, find_crossings
   use contact_space_emit, only: emit_place, emit_crossing, judge_late_place, judge_late_crossing
@@ -89,13 +90,14 @@ contains
     t = facing_side(this, s)
     associate (near => this%near(s), own => this%skin(s), obstacle => this%skin(t))
       do i = 1, near%n
-        if (near%distance(i) > view%reach) cycle
+        if (is_far(near%distance(i), view%reach)) cycle
         associate (list => near%edge(near%first(i):near%first(i + 1) - 1), &
             node => this%side(s)%node(near%node(i)))
           if (.not. obstacle%is_closed) then
             call open_gap(this, model%x, u, s, node, list, gap, facet)
-            call update_front(gap, this%penetration_tolerance*this%side(t)%mean_length, &
-                near%front(i))
+            ! A node that was beyond the rim may come back as deep as one without a row may be.
+            call update_front(gap, max(this%penetration_tolerance, too_deep*share_of_edge) &
+                *this%side(t)%mean_length, near%front(i))
             if (near%front(i) == is_behind) cycle
           end if
           call find_space_places(own, obstacle, node, list, model%x, u, view, this%sight, free)
@@ -108,6 +110,13 @@ contains
       end do
     end associate
   end subroutine find_side
+
+  !> Is a node too far for a row? One that is before no facet of an open obstacle has no gap,
+  !> but may be at its rim.
+  pure logical function is_far(gap, reach)
+    real(wp), intent(in) :: gap, reach
+    is_far = gap > reach .and. gap < huge(one)
+  end function is_far
 
   !> Keeps the places of a node with their grades. A node that is outside has no place that is
   !> deeper than its allowance: that is the far side of a thin body.
@@ -234,7 +243,7 @@ contains
     associate (near => this%near(s))
       do i = 1, near%n
         gap = near%distance(i)
-        if (near%front(i) == is_behind .or. gap > view%reach) cycle
+        if (near%front(i) == is_behind .or. is_far(gap, view%reach)) cycle
         if (gap < zero .and. gap >= -least_allowance(this, s, near%node(i))) gap = tiny(one)
         call find_space_places(this%skin(s), this%skin(facing_side(this, s)), &
             this%side(s)%node(near%node(i)), near%edge(near%first(i):near%first(i + 1) - 1), &

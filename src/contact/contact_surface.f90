@@ -4,11 +4,11 @@
 !> part of that boundary; the turn of the boundary at a node is that of the whole.
 module contact_surface
   use base_kinds, only: wp, zero, one, half
-  use contact_facets, only: facets_t, exterior_facets, corners_of
+  use contact_facets, only: facets_t, make_facets, corners_of
   use model_bodies, only: find_bodies
   use model_data, only: model_t, side_part_set, side_node_set, side_part, &
       side_segment_set, side_all_nodes, side_parts
-  use model_faces, only: exterior_faces
+  use model_faces, only: exterior_facets
   implicit none
   private
 
@@ -51,7 +51,7 @@ contains
     type(surface_t), intent(out) :: surface
     integer, intent(in), optional :: parts(:)
     logical, allocatable :: part_in(:), node_in(:)
-    integer, allocatable :: boundary(:, :), owner(:), part(:), edge(:, :), body(:)
+    integer, allocatable :: boundary(:, :), owner(:), facet(:), part(:), edge(:, :), body(:)
     logical, allocatable :: is_listed(:), taken(:)
     integer :: k
     if (model%dim == 3) then
@@ -63,7 +63,7 @@ contains
     if (present(parts)) part_in(parts) = .true.
     if (kind == side_part_set) part_in(model%part_set(row)%member) = .true.
     if (kind == side_part) part_in(row) = .true.
-    call exterior_faces(model%mesh, model%nodes, 2, boundary, owner)
+    call exterior_facets(model%mesh, model%nodes, 2, boundary, owner, facet)
     part = model%mesh%part(owner)
     is_listed = part_in(part)
     select case (kind)
@@ -108,7 +108,7 @@ contains
     integer, intent(in), optional :: parts(:)
     logical :: node_in(model%nodes)
     integer :: k
-    call exterior_facets(model, surface%facets)
+    call make_facets(model, surface%facets)
     node_in = .false.
     if (kind == side_all_nodes) node_in(:model%mesh_nodes) = .true.
     if (kind == side_node_set) node_in(model%node_set(row)%member) = .true.

@@ -31,6 +31,7 @@ module contact_wall
     procedure :: find_late => wall_find_late
     procedure :: measure => wall_measure
     procedure :: measure_whole => wall_measure_whole
+    procedure :: weigh_nodes => wall_weigh_nodes
     procedure :: exchange => wall_exchange
   end type pairing_wall_t
 
@@ -206,6 +207,25 @@ contains
     accepted = min(1.0e-3_wp*edge_length(this), max(this%penetration_tolerance &
         *edge_length(this), 1.0e-7_wp*sqrt(far)))
   end subroutine wall_measure_whole
+
+  !> In space, areas of near nodes: what belongs to them of the facets that face the wall.
+  subroutine wall_weigh_nodes(this, model, area)
+    class(pairing_wall_t), intent(in) :: this
+    type(model_t), intent(in) :: model
+    real(wp), intent(inout) :: area(:)
+    integer :: e, k
+    associate (f => this%side(1)%facets)
+      do e = 1, f%n
+        if (.not. f%is_listed(e)) cycle
+        if (.not. dot_product(f%normal(:, e), this%normal) < -half) cycle
+        do k = 1, corners_of(f, e)
+          associate (at => this%nodal%first(1) + this%side(1)%index(f%node(k, e)))
+            if (this%nodal%is_near(at)) area(at) = area(at) + f%share(k, e)
+          end associate
+        end do
+      end do
+    end associate
+  end subroutine wall_weigh_nodes
 
   subroutine wall_exchange(this, archive)
     class(pairing_wall_t), intent(inout) :: this

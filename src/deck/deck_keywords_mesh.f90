@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Keywords of the mesh: nodes, elements, parts, sections, materials, sets.
 module deck_keywords_mesh
+  use base_strings, only: to_text
   use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field
   implicit none
   private
@@ -79,7 +80,9 @@ contains
   !> second form is also what programs write; a deck's name ends at the first blank.
   subroutine add_solids(table)
     type(table_t), intent(inout) :: table
-    integer :: row
+    character(*), parameter :: tet10 = &
+        'of a quadratic tetrahedron, whose N5 to N10 lie on 12, 23, 31, 14, 24, 34; else 0'
+    integer :: row, m
     call add_keyword(table, 'ELEMENT_SOLID', &
         'elements in space: hexahedra, wedges, pyramids, tetrahedra', repeat_from=1)
     call add_card(table)
@@ -96,8 +99,19 @@ contains
     call add_field(table, 'PID', 'I8 req >0', 'part')
     call add_card(table)
     call add_corners(table)
-    call add_field(table, 'N9', 'I8 =0 >=0', 'of quadratic elements: 0')
-    call add_field(table, 'N10', 'I8 =0 >=0', 'of quadratic elements: 0')
+    call add_field(table, 'N9', 'I8 =0 >=0', tet10)
+    call add_field(table, 'N10', 'I8 =0 >=0', tet10)
+    call add_keyword(table, 'ELEMENT_SOLID_H27', 'quadratic hexahedra (ELFORM 24)', &
+        repeat_from=1)
+    call add_card(table)
+    call add_field(table, 'EID', 'I8 req >0', 'element number')
+    call add_field(table, 'PID', 'I8 req >0', 'part')
+    do m = 1, 27
+      if (mod(m, 10) == 1) call add_card(table)
+      call add_field(table, 'N'//to_text(m), 'I8 req >0', merge( &
+          'corner, in the order of *ELEMENT_SOLID             ', &
+          'node on an edge, a face or in the middle: any order', m <= 8))
+    end do
   end subroutine add_solids
 
   subroutine add_corners(table)
@@ -124,7 +138,7 @@ contains
     call add_field(table, 'SECID', 'I10 req >0', 'section number')
     call add_field(table, 'ELFORM', 'I10 =1 0=d', &
         '1 full, 2 mean dilatation, -1 -2 18 -18 62 incompatible modes, 10 13 60 TET4, '// &
-        '15 115 WEDGE6')
+        '15 115 WEDGE6, 16 TET10, 24 HEX27')
     call add_field(table, 'AET', 'I10 fixed', 'of other kinds of element')
     call add_field(table, 'NIP', 'R10 fixed', 'points are those of the form')
     call add_field(table, '-', 'R10 fixed')

@@ -76,8 +76,9 @@ contains
     type(deck_t), intent(inout) :: deck
     integer :: b
     do b = 1, deck%blocks
-      if (deck%table%keyword(deck%block(b)%keyword)%canonical_row &
-          == find_keyword(deck%table, 'ELEMENT_SOLID')) deck%in_space = .true.
+      if (any(deck%table%keyword(deck%block(b)%keyword)%canonical_row &
+          == [find_keyword(deck%table, 'ELEMENT_SOLID'), &
+          find_keyword(deck%table, 'ELEMENT_SOLID_H27')])) deck%in_space = .true.
     end do
     call check_dimension(deck)
   end subroutine find_dimension

@@ -24,6 +24,7 @@ module element_base
     !> Of an element with curved faces: the triangles or quadrilaterals by which contact sees
     !> them, (nodes of a facet, facets), as many for each face; else not allocated
     integer, allocatable :: facet(:, :)
+    real(wp), allocatable :: place(:, :) !< of such: parametric coordinates (3, nodes) of nodes
   contains
     procedure(shape_i), deferred :: shape
     procedure(rule_i), deferred :: rule
@@ -42,6 +43,7 @@ module element_base
     procedure :: face_size
     procedure :: facets
     procedure :: facet_nodes
+    procedure :: facets_a_face
   end type element_t
 
   !> An element in a list of elements of several kinds.
@@ -370,6 +372,12 @@ contains
     facets = size(this%face, 2)
     if (allocated(this%facet)) facets = size(this%facet, 2)
   end function facets
+
+  !> Those of one face: the facets m (f - 1) + 1 to m f are of face f.
+  pure integer function facets_a_face(this) result(m)
+    class(element_t), intent(in) :: this
+    m = this%facets()/size(this%face, 2)
+  end function facets_a_face
 
   !> The nodes of one of them, outward.
   pure function facet_nodes(this, f) result(node)

@@ -4,7 +4,7 @@ module element_curved
   use base_kinds, only: wp, half
   implicit none
   private
-  public :: midpoints, quadratic_faces, linear_facets
+  public :: midpoints, quadratic_faces, linear_facets, nearest_places
 
 contains
 
@@ -64,5 +64,21 @@ contains
       end associate
     end do
   end function linear_facets
+
+  !> Which node lies at each place, given where they are and where the places are, in space or
+  !> parametric (dim, nodes): order(k) is the node nearest to place k. is_clear: each node is
+  !> nearest to a place of its own.
+  pure subroutine nearest_places(x, place, order, is_clear)
+    real(wp), intent(in) :: x(:, :), place(:, :)
+    integer, intent(out) :: order(:)
+    logical, intent(out) :: is_clear
+    integer :: k, m
+    order = 0
+    do k = 1, size(x, 2)
+      m = minloc(sum((place - spread(x(:, k), 2, size(place, 2)))**2, dim=1), dim=1)
+      if (order(m) == 0) order(m) = k
+    end do
+    is_clear = all(order > 0)
+  end subroutine nearest_places
 
 end module element_curved

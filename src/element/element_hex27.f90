@@ -28,7 +28,8 @@ contains
   pure function new_hex27() result(element)
     type(hex27_t) :: element
     element = hex27_t(name='HEX27', dim=3, nodes=27, vtk=29)
-    element%face = quadratic_faces(hex27_places(), hex_face)
+    element%place = hex27_places()
+    element%face = quadratic_faces(element%place, hex_face)
     element%facet = linear_facets(element%face)
   end function new_hex27
 

@@ -28,7 +28,8 @@ contains
   pure function new_tet10() result(element)
     type(tet10_t) :: element
     element = tet10_t(name='TET10', dim=3, nodes=10, vtk=24)
-    element%face = quadratic_faces(tet10_places(), tet_face)
+    element%place = tet10_places()
+    element%face = quadratic_faces(element%place, tet_face)
     element%facet = linear_facets(element%face)
   end function new_tet10
 

@@ -34,6 +34,8 @@ module model_mesh
     procedure :: facets_of
     procedure :: facet_of
     procedure :: get_face
+    procedure :: get_facet
+    procedure :: face_of_facet
     procedure :: is_of_type
   end type mesh_t
 
@@ -151,6 +153,32 @@ contains
       end do
     end associate
   end subroutine get_face
+
+  !> The same for linear piece f of the surface.
+  pure subroutine get_facet(this, f, e, node, m)
+    class(mesh_t), intent(in) :: this
+    integer, intent(in) :: f, e
+    integer, intent(inout) :: node(:)
+    integer, intent(out) :: m
+    integer :: k
+    associate (element => this%kind(this%type(e))%item)
+      if (.not. allocated(element%facet)) then
+        call this%get_face(f, e, node, m)
+        return
+      end if
+      m = size(element%facet, 1)
+      do k = 1, m
+        node(k) = this%node(this%first(e) + element%facet(k, f) - 1)
+      end do
+    end associate
+  end subroutine get_facet
+
+  !> The face that piece f of the surface of element e is of.
+  pure integer function face_of_facet(this, f, e)
+    class(mesh_t), intent(in) :: this
+    integer, intent(in) :: f, e
+    face_of_facet = 1 + (f - 1)/this%kind(this%type(e))%item%facets_a_face()
+  end function face_of_facet
 
   !> Linear pieces of the surface of element e.
   pure integer function facets_of(this, e)

@@ -34,10 +34,10 @@ module output_xdmf
   end type text_t
 
   !> Cells by their number in VTK, their name and number in XDMF.
-  integer, parameter :: cell_vtk(6) = [5, 9, 10, 14, 13, 12]
-  character(13), parameter :: cell_name(6) = [character(13) :: 'Triangle', 'Quadrilateral', &
-      'Tetrahedron', 'Pyramid', 'Wedge', 'Hexahedron']
-  integer, parameter :: cell_number(6) = [4, 5, 6, 7, 8, 9]
+  integer, parameter :: cell_vtk(8) = [5, 9, 10, 14, 13, 12, 24, 29]
+  character(14), parameter :: cell_name(8) = [character(14) :: 'Triangle', 'Quadrilateral', &
+      'Tetrahedron', 'Pyramid', 'Wedge', 'Hexahedron', 'Tetrahedron_10', 'Hexahedron_27']
+  integer, parameter :: cell_number(8) = [4, 5, 6, 7, 8, 9, 38, 50]
 
 contains
 

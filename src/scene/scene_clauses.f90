@@ -5,7 +5,7 @@ module scene_clauses
   use base_kinds, only: wp
   use deck_data, only: deck_t
   use model_data, only: model_t
-  use model_faces, only: exterior_faces
+  use model_faces, only: exterior_facets
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
   private
@@ -271,8 +271,10 @@ contains
   subroutine find_exterior(model, edges)
     type(model_t), intent(in) :: model
     type(edges_t), intent(out) :: edges
+    integer, allocatable :: facet(:)
     integer :: e
-    call exterior_faces(model%mesh, model%nodes, 2*(model%dim - 1), edges%node, edges%owner)
+    call exterior_facets(model%mesh, model%nodes, 2*(model%dim - 1), edges%node, edges%owner, &
+        facet)
     allocate (edges%first(model%nodes), edges%next(size(edges%owner)))
     edges%first = 0
     do e = 1, size(edges%owner)

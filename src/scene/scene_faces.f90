@@ -19,6 +19,7 @@ contains
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
     type(faces_t) :: faces
+    character(:), allocatable :: found, hint
     integer :: k, hanging(2)
     call find_faces(model%mesh, model%mesh_nodes, faces)
     do k = 1, faces%n
@@ -27,11 +28,17 @@ contains
     end do
     call find_hanging(model%mesh, model%mesh_nodes, faces, hanging)
     if (hanging(1) == 0) return
-    call deck%complain(model%mesh%record(hanging(1)), '', 'a triangle of element '// &
-        to_text(model%mesh%id(hanging(1)))//' lies on half a quadrilateral of element '// &
+    found = 'a triangle of element '//to_text(model%mesh%id(hanging(1)))// &
+        ' lies on half a quadrilateral of element '
+    hint = 'put pyramids between tetrahedra and hexahedra'
+    if (model%mesh%count_of(hanging(1)) > 8 .or. model%mesh%count_of(hanging(2)) > 8) then
+      found = 'a face of element '//to_text(model%mesh%id(hanging(1)))// &
+          ' lies on a face with more nodes of element '
+      hint = 'join quadratic elements with their like alone'
+    end if
+    call deck%complain(model%mesh%record(hanging(1)), '', found// &
         to_text(model%mesh%id(hanging(2)))//': they do not hold together', &
-        'the other element is at '//deck%place(model%mesh%record(hanging(2)))//'; put '// &
-        'pyramids between tetrahedra and hexahedra')
+        'the other element is at '//deck%place(model%mesh%record(hanging(2)))//'; '//hint)
   end subroutine check_faces
 
   !> Names the elements of a face that more than two have.

@@ -6,9 +6,10 @@ module scene_loads
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note, add_warning
-  use element_face, only: face_areas
+  use element_base, only: most_face_nodes
+  use model_areas, only: facet_areas
   use model_data, only: model_t, curve_t, load_t
-  use model_faces, only: orient_segments
+  use model_faces, only: find_segments
   use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
   use scene_sets, only: read_segment, corners, segment_text
   implicit none
@@ -199,47 +200,62 @@ contains
     type(model_t), intent(inout) :: model
     integer, intent(in) :: before
     integer, intent(in) :: record(:)
-    integer, allocatable :: node(:), segment(:, :), owner(:)
-    integer :: k, n, m
+    integer, allocatable :: node(:), segment(:, :), facet(:, :), from(:), owner(:), local(:)
+    integer :: k, n, m, first, last
     n = 0
     do k = before + 1, size(record)
       call append(model%load(k)%node, node, n)
     end do
     if (n == 0) return
     segment = reshape(node(:n), [corners(model), n/corners(model)])
-    allocate (owner(size(segment, 2)))
-    call orient_segments(model%mesh, model%nodes, segment, owner)
+    call find_segments(model%mesh, model%nodes, segment, facet, from, owner, local)
     n = 0
+    last = 0
     do k = before + 1, size(record)
       m = size(model%load(k)%node)/corners(model)
-      if (any(owner(n + 1:n + m) == 0)) then
-        call deck%complain(record(k), 'N1', segment_text(model))
+      first = last
+      do while (last < size(from))
+        if (from(last + 1) > n + m) exit
+        last = last + 1
+      end do
+      if (has_all(from(first + 1:last), n + 1, n + m)) then
+        call press(model, owner(first + 1:last), local(first + 1:last), model%load(k))
       else
-        call press(model, segment(:, n + 1:n + m), owner(n + 1:n + m), model%load(k))
+        call deck%complain(record(k), 'N1', segment_text(model))
       end if
       n = n + m
     end do
   end subroutine find_pressures
 
-  !> A pressure on faces of elements as forces on their nodes: int N n dA of the reference
-  !> geometry, against the outward normal; in the plane times the thickness. owner: the elements
-  !> of the segments.
-  subroutine press(model, segment, owner, load)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: segment(:, :), owner(:)
-    type(load_t), intent(inout) :: load
-    integer :: s, n, m
-    load%node = pack(segment, segment > 0)
-    allocate (load%force(model%dim, size(load%node)))
-    n = 0
-    do s = 1, size(segment, 2)
-      m = count(segment(:, s) > 0)
-      associate (force => load%force(:, n + 1:n + m))
-        call face_areas(model%x(:, segment(:m, s)), force)
-        force = -model%part(model%mesh%part(owner(s)))%thickness*force
-      end associate
-      n = n + m
+  !> Are all numbers from a to b in a list that does not decrease?
+  pure logical function has_all(list, a, b)
+    integer, intent(in) :: list(:), a, b
+    integer :: k, next
+    next = a
+    do k = 1, size(list)
+      if (list(k) == next) next = next + 1
     end do
+    has_all = next == b + 1
+  end function has_all
+
+  !> A pressure on facets of elements as forces on the nodes of their faces: int N n dA of the
+  !> reference geometry, against the outward normal; in the plane times the thickness.
+  subroutine press(model, owner, facet, load)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: owner(:), facet(:)
+    type(load_t), intent(inout) :: load
+    integer :: s, n, m, node(most_face_nodes)
+    real(wp) :: force(model%dim, most_face_nodes*size(owner))
+    deallocate (load%node)
+    n = 0
+    do s = 1, size(owner)
+      call facet_areas(model%mesh, model%x, owner(s), facet(s), node, m, force(:, n + 1:))
+      force(:, n + 1:n + m) = &
+          -model%part(model%mesh%part(owner(s)))%thickness*force(:, n + 1:n + m)
+      call append(node(:m), load%node, n)
+    end do
+    load%node = load%node(:n)
+    load%force = force(:, :n)
   end subroutine press
 
   subroutine read_gravity(deck, model, maps)

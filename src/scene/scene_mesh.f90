@@ -59,12 +59,14 @@ contains
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(inout) :: maps
-    integer :: shell
+    integer :: shell, solid
     shell = deck%next('ELEMENT_SHELL', 1, 0)
     if (deck%in_space) then
+      solid = deck%next('ELEMENT_SOLID', 1, 0)
+      if (solid == 0) solid = deck%next('ELEMENT_SOLID_H27', 1, 0)
       if (shell > 0) call deck%complain(shell, '', 'expected no *ELEMENT_SHELL beside '// &
           '*ELEMENT_SOLID: a model is plane or in space', 'the first solid is at '// &
-          deck%place(deck%next('ELEMENT_SOLID', 1, 0)))
+          deck%place(solid))
       call read_solids(deck, model, maps)
     else
       call read_shells(deck, model, maps)

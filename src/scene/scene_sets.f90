@@ -6,7 +6,7 @@ module scene_sets
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use model_data, only: model_t, set_t, segment_set_t
-  use model_faces, only: orient_segments
+  use model_faces, only: find_segments
   use scene_clauses, only: box_t, edges_t, read_boxes, read_clauses, read_segment_clauses
   use scene_ids, only: maps_t, id_map_t, make_id_map, records_of, find_or_complain
   implicit none
@@ -177,12 +177,13 @@ contains
     if (model%dim == 3) text = 'expected the nodes of an exterior element face'
   end function segment_text
 
-  !> The segments of all sets must be exterior edges or faces.
+  !> The segments of all sets must be exterior edges or faces; those that are curved faces
+  !> become their facets.
   subroutine check_segments(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
-    integer, allocatable :: node(:), segment(:, :), owner(:)
-    integer :: k, r, n
+    integer, allocatable :: node(:), segment(:, :), facet(:, :), from(:), owner(:), local(:)
+    integer :: k, r, n, first, last, before
     n = 0
     do k = 1, size(model%segment_set)
       associate (segment => model%segment_set(k)%node)
@@ -191,16 +192,22 @@ contains
     end do
     if (n == 0) return
     segment = reshape(node(:n), [corners(model), n/corners(model)])
-    allocate (owner(size(segment, 2)))
-    call orient_segments(model%mesh, model%nodes, segment, owner)
+    call find_segments(model%mesh, model%nodes, segment, facet, from, owner, local)
     n = 0
+    last = 0
     do k = 1, size(model%segment_set)
+      first = last
       do r = 1, size(model%segment_set(k)%node, 2)
         n = n + 1
-        model%segment_set(k)%node(:, r) = segment(:, n)
-        if (owner(n) == 0) call deck%complain(model%segment_set(k)%record + r, 'N1', &
+        before = last
+        do while (last < size(from))
+          if (from(last + 1) > n) exit
+          last = last + 1
+        end do
+        if (last == before) call deck%complain(model%segment_set(k)%record + r, 'N1', &
             segment_text(model))
       end do
+      model%segment_set(k)%node = facet(:, first + 1:last)
     end do
   end subroutine check_segments
 

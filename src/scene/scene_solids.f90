@@ -1,10 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Elements in space: which one a card means by its repeated nodes and the form of its section.
 module scene_solids
+  use base_kinds, only: wp
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note
-  use element_base, only: element_t
+  use element_base, only: element_t, most_nodes
+  use element_curved, only: nearest_places
   use element_registry, only: make_element
   use model_data, only: model_t
   use scene_ids, only: maps_t, records_of, find_or_complain, part_of_element
@@ -12,7 +14,7 @@ module scene_solids
   private
   public :: form_of, read_solids
 
-  !> What each ELFORM of *SECTION_SOLID is; those that no element answers to are not available.
+  !> What each ELFORM of *SECTION_SOLID is.
   integer, parameter :: code(14) = [1, 2, -1, -2, 18, -18, 62, 10, 13, 60, 15, 115, 16, 24]
   character(8), parameter :: element_of(14) = [character(8) :: 'HEX8', 'HEX8MEAN', 'HEX8MODE', &
       'HEX8MODE', 'HEX8MODE', 'HEX8MODE', 'HEX8MODE', 'TET4', 'TET4', 'TET4', 'WEDGE6', &
@@ -26,9 +28,7 @@ contains
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record, elform
     character(8), intent(out) :: form
-    class(element_t), allocatable :: element
     integer :: k
-    logical :: is_available
     form = 'HEX8'
     do k = 1, size(code)
       if (code(k) == elform) exit
@@ -36,84 +36,156 @@ contains
     if (k > size(code)) then
       call deck%complain(record, 'ELFORM', 'expected 1 (full), 2 (mean dilatation), -1, '// &
           '-2, 18, -18 or 62 (incompatible modes), 10, 13 or 60 (tetrahedra), 15 or 115 '// &
-          '(wedges), found '//to_text(elform), 'other element forms are not available in '// &
-          'this version: take 2, or -1 for bending')
+          '(wedges), 16 (tetrahedra of ten nodes), 24 (hexahedra of 27), found '// &
+          to_text(elform), 'other element forms are not available in this version: take 2, '// &
+          'or -1 for bending')
       return
     end if
-    call make_element(trim(element_of(k)), element)
-    is_available = allocated(element)
-    if (is_available) is_available = element%nodes <= 8    ! cards of more are not read yet
-    if (is_available) then
-      form = element_of(k)
-    else
-      call deck%complain(record, 'ELFORM', 'the element '//trim(element_of(k))// &
-          ' of ELFORM '//to_text(elform)//' is not available in this version', &
-          'take 2, -1 or 10')
-    end if
+    form = element_of(k)
     if (elform == 1) call add_note(deck%problems, &
         'ELFORM 1 of *SECTION_SOLID is integrated with 2 x 2 x 2 points, not with one')
     if (elform == 13) call add_note(deck%problems, 'ELFORM 13 of *SECTION_SOLID is the '// &
         'tetrahedron of constant strain, without pressures at nodes')
   end subroutine form_of
 
-  !> *ELEMENT_SOLID, in both its forms.
+  !> *ELEMENT_SOLID, in both its forms, and *ELEMENT_SOLID_H27.
   subroutine read_solids(deck, model, maps)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
-    integer, allocatable :: record(:)
-    integer :: k, part, nodes, corner(8)
+    integer, allocatable :: record(:), large(:)
+    integer :: k, part, nodes, node(most_nodes), moved
     character(8) :: name
     call records_of(deck, 'ELEMENT_SOLID', 1, record)
-    call model%mesh%start(size(record), 8*size(record))
-    do k = 1, size(record)
-      associate (r => record(k))
+    call records_of(deck, 'ELEMENT_SOLID_H27', 1, large)
+    call model%mesh%start(size(record) + size(large), 10*size(record) + 27*size(large))
+    moved = 0
+    do k = 1, size(record) + size(large)
+      if (k <= size(record)) call read_nodes(deck, record(k), maps, node, name, nodes)
+      if (k > size(record)) &
+          call read_27(deck, large(k - size(record)), maps, node, name, nodes)
+      associate (r => merge(record(min(k, size(record))), &
+          large(max(1, k - size(record))), k <= size(record)))
         part = part_of_element(deck, maps, r)
-        call read_nodes(deck, r, maps, corner, name, nodes)
+        if (nodes > 8) call take_places(deck, model, r, name, node(:nodes), moved)
         if (part > 0) call take_form(deck, model, r, part, name)
-        call model%mesh%add(trim(name), nint(deck%number_at(r, 1)), part, r, corner(:nodes))
+        call model%mesh%add(trim(name), nint(deck%number_at(r, 1)), part, r, node(:nodes))
       end associate
     end do
+    if (moved > 0) call add_note(deck%problems, 'mid nodes of '//to_text(moved)// &
+        ' elements with ten nodes stand in another order than 12, 23, 31, 14, 24, 34: each '// &
+        'is taken for the edge on which it lies')
   end subroutine read_solids
 
   !> Rows of the nodes of a card and the element that they make, HEX8 where none is repeated.
-  subroutine read_nodes(deck, record, maps, corner, name, nodes)
+  subroutine read_nodes(deck, record, maps, node, name, nodes)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
     type(maps_t), intent(in) :: maps
-    integer, intent(out) :: corner(8), nodes
+    integer, intent(out) :: node(:), nodes
     character(8), intent(out) :: name
-    integer :: card, before, m, id(8)
+    integer :: card, before, m, id(10)
     card = deck%follow(record, 2)
     before = 0
+    id = 0
     if (card == 0) then
       card = record
       before = 2
     end if
-    do m = 1, 8
+    do m = 1, merge(8, 10, card == record)
       id(m) = nint(deck%number_at(card, before + m))
     end do
-    name = 'HEX8'
-    nodes = 8
-    corner = 0
-    if (card /= record) then
-      if (any([(nint(deck%number_at(card, m)) > 0, m=9, 10)])) then
-        call deck%complain(card, 'N9', 'expected 0: elements with ten nodes are not '// &
-            'available in this version', 'give N9 and N10 as 0 or blank')
-        return
-      end if
+    node = 0
+    if (any(id(9:10) > 0)) then
+      name = 'TET10'
+      nodes = merge(10, 0, are_different(id))
+    else
+      call find_shape(id(:8), name, nodes)
     end if
-    call find_shape(id, name, nodes)
     if (nodes == 0) then
       call deck%complain(card, 'N5', 'expected eight different nodes, or a tetrahedron '// &
-          '1 2 3 4 4 4 4 4, a pyramid 1 2 3 4 5 5 5 5, a wedge 1 2 3 4 5 5 6 6', &
+          '1 2 3 4 4 4 4 4, a pyramid 1 2 3 4 5 5 5 5, a wedge 1 2 3 4 5 5 6 6, ten '// &
+          'different nodes of a quadratic tetrahedron', &
           'numbers that repeat stand for one node')
       return
     end if
     do m = 1, nodes
-      corner(m) = find_or_complain(deck, maps%node, card, 'N'//achar(48 + m), id(m), 'node')
+      node(m) = find_or_complain(deck, maps%node, card, 'N'//to_text(m), id(m), 'node')
     end do
   end subroutine read_nodes
+
+  !> The same of *ELEMENT_SOLID_H27: ten, ten and seven nodes on three cards.
+  subroutine read_27(deck, record, maps, node, name, nodes)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    type(maps_t), intent(in) :: maps
+    integer, intent(out) :: node(:), nodes
+    character(8), intent(out) :: name
+    integer :: m, card, id(27)
+    name = 'HEX27'
+    nodes = 27
+    do m = 1, 27
+      card = deck%follow(record, 2 + (m - 1)/10)
+      id(m) = 0
+      if (card > 0) id(m) = nint(deck%number_at(card, 1 + mod(m - 1, 10)))
+    end do
+    node = 0
+    if (.not. are_different(id)) then
+      call deck%complain(record, '', 'expected 27 different nodes')
+      nodes = 0
+      return
+    end if
+    do m = 1, 27
+      node(m) = find_or_complain(deck, maps%node, deck%follow(record, 2 + (m - 1)/10), &
+          'N'//to_text(m), id(m), 'node')
+    end do
+  end subroutine read_27
+
+  !> Mid nodes in the order of the element, by the places where they lie (*ELEMENT_SOLID_H27
+  !> has no order that all writers keep to). moved: tetrahedra counted whose order was another.
+  subroutine take_places(deck, model, record, name, node, moved)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: record
+    character(*), intent(in) :: name
+    integer, intent(inout) :: node(:), moved
+    integer :: order(size(node)), k
+    logical :: is_clear
+    if (any(node == 0)) return
+    call order_by_place(name, model%x(:, node), order, is_clear)
+    if (.not. is_clear) then
+      call deck%complain(record, '', 'two mid nodes of element '// &
+          to_text(nint(deck%number_at(record, 1)))//' lie at the middle of the same edge '// &
+          'or face', &
+          'put each mid node nearest to the middle of its own edge or face')
+      return
+    end if
+    if (name == 'TET10' .and. any(order /= [(k, k=1, size(order))])) moved = moved + 1
+    node = node(order)
+  end subroutine take_places
+
+  !> The nodes x (3, nodes) of a quadratic element in the order of its type: corners as they
+  !> are, each other node where the straight element with these corners has that place.
+  subroutine order_by_place(name, x, order, is_clear)
+    character(*), intent(in) :: name
+    real(wp), intent(in) :: x(:, :)
+    integer, intent(out) :: order(:)
+    logical, intent(out) :: is_clear
+    class(element_t), allocatable :: element, straight
+    real(wp) :: place(3, size(x, 2)), n(8), dn(8, 3)
+    integer :: k
+    call make_element(name, element)
+    call make_element(merge('TET4', 'HEX8', name == 'TET10'), straight)
+    associate (c => straight%nodes)
+      do k = 1, size(x, 2)
+        call straight%shape(element%place(:, k), n(:c), dn(:c, :))
+        place(:, k) = matmul(x(:, :c), n(:c))
+        order(k) = k
+      end do
+      call nearest_places(x(:, c + 1:), place(:, c + 1:), order(c + 1:), is_clear)
+      order(c + 1:) = order(c + 1:) + c
+    end associate
+  end subroutine order_by_place
 
   !> The shape that eight numbers mean, its nodes without the repeated ones in the front of id;
   !> nodes = 0: none.
@@ -153,12 +225,15 @@ contains
     type(model_t), intent(in) :: model
     integer, intent(in) :: record, part
     character(8), intent(inout) :: name
+    logical :: takes_all
     associate (form => model%part(part)%form)
-      if (form(1:3) == 'HEX' .and. name == 'HEX8') name = form
-      if (form(1:3) == 'HEX' .or. form == '' .or. name == form) return
+      takes_all = form(1:4) == 'HEX8' .and. name /= 'TET10' .and. name /= 'HEX27'
+      if (takes_all .and. name == 'HEX8') name = form
+      if (takes_all .or. form == '' .or. name == form) return
       call deck%complain(record, 'PID', 'the section of part '//to_text(model%part(part)%id)// &
-          ' is of '//trim(form)//' elements, and this is none', &
-          'give these elements a part of their own, or the section another ELFORM')
+          ' is of '//trim(form)//' elements, and this is '//trim(name), &
+          'give these elements a part of their own, or the section another ELFORM (16 for '// &
+          'TET10, 24 for HEX27)')
     end associate
   end subroutine take_form
 

@@ -7,10 +7,12 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+import h5py
 import numpy as np
 import scenes
+import solids
 from scenes import at_most, check, finish, run_text, show, table, within
-from solids import Box, cards, deck, part
+from solids import Box, cards, curve, deck, node_set, part
 
 import collide_space
 from make_space import split
@@ -519,6 +521,119 @@ def space_notch():
     check(table(folder, "rcforc")["fn"].max() > 0.0, "the block meets the channel")
     energy = table(folder, "glstat")
     at_most(energy["total"].max() / energy["total"][0] - 1.0, 1.0e-9, "notch: energy")
+
+
+def space_seam():
+    """A block glides without friction over two tables whose tops are one plane and whose walls
+    touch, also onto the second one at an angle: the seam is nothing to it. Nodes of the block come
+    to stand exactly on nodes and edges of the tables; 1e-10 is round-off of 70 solves times the
+    condition, the square of a Courant number of 40 to 80."""
+    for kind, n, across in (
+        ("HEX8", 1, 0.0),
+        ("TET4", 2, 0.1),
+        ("TET4", 2, 0.0),
+        ("WEDGE6", 1, 0.1),
+    ):
+        name = "%s %d %g" % (kind, n, across)
+        form = "WEDGE6" if kind == "WEDGE6" else "HEX8"
+        bodies = [
+            Box((2 * n, 2 * n, n), (2.0, 2.0, 1.0), form, origin=(0.0, -1.0, -1.0)),
+            Box((2 * n, 2 * n, n), (2.0, 2.0, 1.0), form, origin=(2.0, -1.0, -1.0)),
+            Box((n, n, n), (1.0, 1.0, 0.5), form, origin=(0.5, -0.5, 0.0)),
+        ]
+        lines = []
+        for k, box in enumerate(bodies):
+            elements = split(box.elements) if kind == "TET4" else box.elements
+            lines += cards(box.x, elements, k + 1, 1 + 1000 * k) + part(kind, number=k + 1)
+        block = bodies[2].x
+        lines += velocities(range(len(block)), (1.0, across, 0.0), 2001)
+        for k in (1, 2):
+            card = contact(0.0, "%d,3" % k)
+            card[0] += "_ID"
+            lines += [card[0], "%d" % k] + card[1:]
+        rows = table(run(name, deck(lines, 0.02, 1.4)), "glstat")
+        at_most(np.abs(rows["kinetic"] / rows["kinetic"][0] - 1.0).max(), 1.0e-10, name)
+
+
+def space_quadratic():
+    """A block of quadratic elements on its like, then on a wall, pressed without friction: one
+    stress, and the pressure at each node that has an area (corners of triangles have
+    none). Nodal forces int N p dA are not negative there, so nodes alone pass the patch test;
+    the bounds are the certificate of 1e-14 times the condition of W, 100, at corners of tetrahedra,
+    which carry nothing, 1e4, and for one pressure that of the smallest share of the load. Segments name whole faces by their corners, in one case
+    their pieces; mid nodes of hexahedra come in any order."""
+    chance = np.random.default_rng(4)
+    pressed = 2.0
+    for form, how in (
+        ("TET10", "parts"),
+        ("HEX27", "parts"),
+        ("HEX27", "segments"),
+        ("TET10", "wall"),
+        ("HEX27", "wall"),
+        ("HEX8", "segments"),
+    ):
+        name = form + " " + how
+        shift = 0.15 if how == "wall" else 0.0
+        a = Box((2, 2, 2), (1.0, 1.0, 0.5), form)
+        b = Box((2, 2, 2), (1.0, 1.0, 0.5), form, shift, 6, (0.0, 0.0, 0.5))
+        if form == "HEX27":
+            for box in (a, b):
+                box.elements = [
+                    e[:8] + [e[k] for k in 8 + chance.permutation(19)] for e in box.elements
+                ]
+        bodies = [(b, 2, 1001)] if how == "wall" else [(a, 1, 1), (b, 2, 1001)]
+        lines = []
+        for box, number, first in bodies:
+            lines += cards(box.x, box.elements, number, first) + part(form, number=number)
+        foot = 0.5 if how == "wall" else 0.0
+        low, first = (b, 1001) if how == "wall" else (a, 1)
+        if how != "wall":
+            lines += node_set(9, low.on(2, 0.0), first) + ["*BOUNDARY_SPC_SET", "9,,0,0,1"]
+        for axis in (0, 1):  # symmetry, so that no body is loose
+            rows = [f + r for box, _, f in bodies for r in box.on(axis, 0.0)]
+            lines += node_set(axis + 1, [r - 1 for r in rows])
+            lines += ["*BOUNDARY_SPC_SET", "%d,,%d,%d" % (axis + 1, axis == 0, axis == 1)]
+        lines += ["*DEFINE_BOX", "1,-1.0,2.0,-1.0,2.0,0.999,1.001"]
+        lines += [
+            "*SET_SEGMENT_GENERAL",
+            "5,",
+            "BOX,1",
+            "*LOAD_SEGMENT_SET",
+            "5,1,%r" % pressed,
+        ]
+        lines += curve(1, (0.0, 1.0), (1.0, 1.0))
+        if how == "wall":
+            lines += ["*RIGIDWALL_PLANAR", "0,", "0.0,0.0,%r,0.0,0.0,1.0,0.0" % foot]
+        elif how == "parts":
+            lines += contact()
+        else:
+            for number, (box, z, first) in enumerate(((a, 0.5, 1), (b, 0.5, 1001)), start=11):
+                faces = [
+                    [e[k] for k in f]
+                    for e in box.elements
+                    for f in solids.HEX_FACES
+                    if all(abs(box.x[e[k]][2] - z) < 1e-12 for k in f)
+                ]
+                lines += ["*SET_SEGMENT", "%d," % number]
+                lines += [",".join(str(first + n) for n in f) for f in faces]
+            lines += ["*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,0,0", ",", ","]
+        lines += ["*DATABASE_HISTORY_SOLID", "%d" % first]
+        lines += ["*BIPACT_FIELD", "1.0,", "PRESSURE", "*BIPACT_STATIC", ",,1.0e-14"]
+        lines += ["*BIPACT_CONTACT", ",1.0e-14"]
+        tables = ("GLSTAT", "ELOUT", "RWFORC" if how == "wall" else "RCFORC")
+        folder = run(name, deck(lines, 1.0, 1.0, static=True, tables=tables))
+        rows = table(folder, "elout")
+        loose = 100.0 if form == "TET10" else 1.0
+        at_most(abs(rows["szz"][-1] / pressed + 1.0), loose * 1.0e-12, name + ": stress")
+        with h5py.File(os.path.join(folder, "fields.000.vtkhdf")) as file:
+            p = file["VTKHDF/PointData/PRESSURE"][-len(file["VTKHDF/Points"]) :]
+        found = (p != 0.0).sum() * (2 if how == "wall" else 1)
+        # On a face of 2 x 2: all 25 nodes, or the 16 that are no corners; twice for two sides.
+        check(
+            found == 2 * {"TET10": 16, "HEX27": 25, "HEX8": 9}[form],
+            "%s: %d pressures" % (name, found),
+        )
+        at_most(np.abs(p[p != 0.0] / pressed - 1.0).max(), loose * 1.0e-11, name + ": pressure")
 
 
 def space_refusals():

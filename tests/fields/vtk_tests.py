@@ -206,12 +206,12 @@ def in_space():
         lines += solids.cards(box.x, box.elements, number, first)
         lines += solids.part(form, number=number)
         first += 1000
-    lines += ["*INITIAL_VELOCITY_NODE"] + ["%d,0.5,-1.0,0.3" % n for n in range(1, 5001, 1000)]
+    lines += ["*INITIAL_VELOCITY_NODE"] + ["%d,0.5,-1.0,0.3" % n for n in range(1, 7001, 1000)]
     lines += ["*BIPACT_FIELD", "0.002,", "U,STRESS,PRINCIPAL,PART"]
     folder, code, errors = run_text("solids", solids.deck(lines, 1.0e-3, 0.01))
     check(code == 0, "solids: " + errors)
     run = fields.Fields(folder)
-    check({len(c) for c in run.cells} == {4, 5, 6, 8}, "solids: all shapes")
+    check({len(c) for c in run.cells} == {4, 5, 6, 8, 10, 27}, "solids: all shapes")
     vtkhdf(run, "solids")
     xdmf(folder, run, "solids")
     at_most(max(WORST), 1e-12, "principal values of solids")

@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# space_seam in space_contact.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/space_contact.py" space_seam
