@@ -28,31 +28,35 @@ TETRAHEDRON = np.array(
 )
 SILENT = 3.0e-2  # of an edge; 1e-2 is warned of by the depth of points, this measures pairs
 RISE = 1.0e-9  # of the first energy
+CHUNK = 4096  # pairs at once
 
 
-def separation(p, q):
-    """How deep two tetrahedra (4, 3) stand in each other; negative: how far they are apart at
-    least. By the axes of separation: normals of faces, products of edges."""
-    axes = [np.cross(t[b] - t[a], t[c] - t[a]) for t in (p, q) for a, b, c in FACES]
-    e, f = ([t[b] - t[a] for a, b in EDGES] for t in (p, q))
-    axes = np.array(axes + [np.cross(a, b) for a in e for b in f])
+def separations(p, q):
+    """How deep pairs of tetrahedra (pairs, 4, 3) stand in each other; negative: how far they are
+    apart at least. By the axes of separation: normals of faces, products of edges."""
+    normals = [
+        np.cross(t[:, b] - t[:, a], t[:, c] - t[:, a]) for t in (p, q) for a, b, c in FACES
+    ]
+    e, f = ([t[:, b] - t[:, a] for a, b in EDGES] for t in (p, q))
+    axes = np.stack(normals + [np.cross(a, b) for a in e for b in f], axis=2)
     length = np.linalg.norm(axes, axis=1)
-    axes = axes[length > 1.0e-6] / length[length > 1.0e-6, None]
-    a, b = p @ axes.T, q @ axes.T
-    low, high = b.min(axis=0) - a.max(axis=0), a.min(axis=0) - b.max(axis=0)
-    return -np.maximum(low, high).max()
+    a, b = (np.matmul(t, axes / np.maximum(length, 1.0e-6)[:, None]) for t in (p, q))
+    apart = np.maximum(b.min(axis=1) - a.max(axis=1), a.min(axis=1) - b.max(axis=1))
+    return -np.where(length > 1.0e-6, apart, -np.inf).max(axis=1)
 
 
 def overlap(x, elements, y, others):
-    """The deepest of all pairs of tetrahedra of two bodies; of those whose boxes are apart the
-    distance of the boxes, negative."""
-    deep = -np.inf
-    p, q = x[np.array(elements)[:, :4]], y[np.array(others)[:, :4]]
-    boxes = [(t.min(axis=1), t.max(axis=1)) for t in (p, q)]
-    for i, j in itertools.product(range(len(p)), range(len(q))):
-        (a, b), (c, d) = ((low[k], high[k]) for (low, high), k in zip(boxes, (i, j)))
-        apart = max((a - d).max(), (c - b).max())
-        deep = max(deep, -apart if apart > 0 else separation(p[i], q[j]))
+    """The deepest of all pairs of tetrahedra of two bodies in any of the frames of their places
+    (frames, nodes, 3); of those whose boxes are apart the distance of the boxes, negative."""
+    p, q = x[:, np.array(elements)[:, :4]], y[:, np.array(others)[:, :4]]
+    a, b = p.min(axis=2)[:, :, None], p.max(axis=2)[:, :, None]
+    c, d = q.min(axis=2)[:, None], q.max(axis=2)[:, None]
+    apart = np.maximum((a - d).max(axis=3), (c - b).max(axis=3))
+    deep = -np.min(apart, where=apart > 0.0, initial=np.inf)
+    frame, i, j = np.nonzero(apart <= 0.0)
+    for k in range(0, len(frame), CHUNK):
+        part = slice(k, k + CHUNK)
+        deep = max(deep, separations(p[frame[part], i[part]], q[frame[part], j[part]]).max())
     return deep
 
 
@@ -100,7 +104,11 @@ def scene(seed, share):
     low, high = 0.0, 3.0
     for _ in range(25):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if overlap(x, e, y - middle * way, f) > 0 else (middle, high)
+        low, high = (
+            (low, middle)
+            if overlap(x[None], e, (y - middle * way)[None], f) > 0
+            else (middle, high)
+        )
     if low == 0.0:
         low, high = 0.0, 0.5
     y = y - max(0.0, low - chance.uniform(0.02, 0.3)) * way
@@ -139,7 +147,7 @@ def encounter(seed, share, program, folder):
         tables.read_table(os.path.join(out, t + ".tab")) for t in ("nodout", "glstat")
     )
     places = np.stack([nodes[c] for c in "xyz"], axis=1).reshape(-1, len(x) + len(y), 3)
-    deep = max(overlap(p[: len(x)], e, p[len(x) :], f) for p in places)
+    deep = overlap(places[:, : len(x)], e, places[:, len(x) :], f)
     rise = (energy["total"] - energy["initial"] - energy["unsolved"]).max()
     how = "stopped" if done.returncode else "ran"
     if how == "ran" and "WARNING overlap" in done.stderr:
