@@ -13,7 +13,8 @@ figures. --quick takes few meshes and steps and writes to build/report/quick; --
 three coarsest meshes of each scene; --peers runs CalculiX where it is
 installed, on the same scenes; --static makes only
 the part on static contact pairings (static_pairings.py), which has CalculiX beside it wherever it
-is installed; --one makes one run of the study and prints its errors."""
+is installed, --space that on solids (space_forms.py); --one makes one run of the study and prints its errors.
+"""
 
 import json
 import os
@@ -30,6 +31,7 @@ import make_bars
 import peers
 import report_pages
 import report_scenes
+import space_forms
 import static_pairings
 from report_figures import write_figures
 from report_scenes import BY_BARS, SCENES
@@ -221,13 +223,22 @@ def one(text):
 def main():
     parser = common.study_parser(__doc__)
     parser.add_argument("--peers", action="store_true", help="other programs beside it")
-    parser.add_argument("--one", metavar="KEY", help="one run: scene|method|mass|redist|n|courant")
+    parser.add_argument(
+        "--one", metavar="KEY", help="one run: scene|method|mass|redist|n|courant"
+    )
+    parser.add_argument("--space", action="store_true", help="solids in space alone")
     parser.add_argument("--static", action="store_true", help="static contact pairings alone")
     a = parser.parse_args()
     if a.one:
         return one(a.one)
     size = "quick" if a.quick else "reduced" if a.reduced else "full"
     store, out = common.study_folders("report", a)
+    if not a.static:
+        space_forms.write(
+            space_forms.study(store, size, a.jobs), report_pages.COMMANDS[size], out
+        )
+    if a.space:
+        return 0
     static = static_pairings.study(store, size, a.jobs, a.peers or size != "quick")
     static_pairings.write(static, size, report_pages.COMMANDS[size], out)
     if a.static:
@@ -239,7 +250,9 @@ def main():
     others = peers.study(store, size) if a.peers else []
     report_pages.write_csv(results + others, out)
     write_figures(results, others, pairs, started, out)
-    about = dict(size=size, started=started, refused=refused, pairs=pairs, peers=others, static=static)
+    about = dict(
+        size=size, started=started, refused=refused, pairs=pairs, peers=others, static=static
+    )
     report_pages.write_index(results, about, out)
     report_pages.write_choose(results, about, out)
     print(

@@ -155,6 +155,7 @@ FIGURES = (
 
 
 STATIC = ["## Static contact", "", "NODE and MORTAR on closed forms: [static.md](static.md).", ""]
+STATIC += ["## In space", "", "Forms of solids and masses on exact scenes: [space.md](space.md).", ""]
 
 
 def reference_lines():

@@ -12,6 +12,8 @@ from math import cos, pi, sin, sqrt
 import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
+from solid_forms import split
+
 
 def rotation(axis, angle):
     """Rodrigues' matrix."""
@@ -69,33 +71,6 @@ def grid(counts, place):
     return x, [
         [number[i + a, j + b, k + c] for c in (0, 1) for a, b in ring] for i, j, k in cells
     ]
-
-
-def split(elements):
-    """Six tetrahedra around one diagonal of each hexahedron."""
-    out = []
-    for h in elements:
-        corner = {
-            (0, 0, 0): 0,
-            (1, 0, 0): 1,
-            (1, 1, 0): 2,
-            (0, 1, 0): 3,
-            (0, 0, 1): 4,
-            (1, 0, 1): 5,
-            (1, 1, 1): 6,
-            (0, 1, 1): 7,
-        }
-        for order in itertools.permutations(range(3)):
-            at, path = [0, 0, 0], [0]
-            for d in order:
-                at[d] = 1
-                path.append(corner[tuple(at)])
-            a, b, c, d = (h[k] for k in path)
-            if order in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-                out.append([a, b, c] + 5 * [d])
-            else:
-                out.append([a, c, b] + 5 * [d])
-    return out
 
 
 def head(title, end, step, mass="CONSISTENT", theta=0.5, static=False):

@@ -109,8 +109,8 @@ contains
     do m = 1, 27
       if (mod(m, 10) == 1) call add_card(table)
       call add_field(table, 'N'//to_text(m), 'I8 req >0', merge( &
-          'corner, in the order of *ELEMENT_SOLID             ', &
-          'node on an edge, a face or in the middle: any order', m <= 8))
+          'corner, in the order of *ELEMENT_SOLID            ', &
+          'node on an edge, a face, in the middle: VTK or any', m <= 8))
     end do
   end subroutine add_solids
 

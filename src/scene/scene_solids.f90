@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Elements in space: which one a card means by its repeated nodes and the form of its section.
 module scene_solids
-  use base_kinds, only: wp
+  use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note
@@ -67,14 +67,14 @@ contains
       associate (r => merge(record(min(k, size(record))), &
           large(max(1, k - size(record))), k <= size(record)))
         part = part_of_element(deck, maps, r)
-        if (nodes > 8) call take_places(deck, model, r, name, node(:nodes), moved)
+        if (nodes > 8) call take_places(model, name, node(:nodes), moved)
         if (part > 0) call take_form(deck, model, r, part, name)
         call model%mesh%add(trim(name), nint(deck%number_at(r, 1)), part, r, node(:nodes))
       end associate
     end do
     if (moved > 0) call add_note(deck%problems, 'mid nodes of '//to_text(moved)// &
-        ' elements with ten nodes stand in another order than 12, 23, 31, 14, 24, 34: each '// &
-        'is taken for the edge on which it lies')
+        ' quadratic elements are in another order than those of VTK: each is taken for the '// &
+        'edge or face on which it lies')
   end subroutine read_solids
 
   !> Rows of the nodes of a card and the element that they make, HEX8 where none is repeated.
@@ -141,27 +141,24 @@ contains
     end do
   end subroutine read_27
 
-  !> Mid nodes in the order of the element, by the places where they lie (*ELEMENT_SOLID_H27
-  !> has no order that all writers keep to). moved: tetrahedra counted whose order was another.
-  subroutine take_places(deck, model, record, name, node, moved)
-    type(deck_t), intent(inout) :: deck
+  !> Mid nodes in the order of the element, by the places where they lie, if they are not in that
+  !> order (*ELEMENT_SOLID_H27 has none that all writers keep to). moved: elements counted whose
+  !> order was another.
+  subroutine take_places(model, name, node, moved)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: record
     character(*), intent(in) :: name
     integer, intent(inout) :: node(:), moved
-    integer :: order(size(node)), k
+    class(element_t), allocatable :: element
+    integer :: order(size(node))
     logical :: is_clear
     if (any(node == 0)) return
+    call make_element(name, element)
+    if (element%smallest_jacobian(model%x(:, node)) > zero) return
     call order_by_place(name, model%x(:, node), order, is_clear)
-    if (.not. is_clear) then
-      call deck%complain(record, '', 'two mid nodes of element '// &
-          to_text(nint(deck%number_at(record, 1)))//' lie at the middle of the same edge '// &
-          'or face', &
-          'put each mid node nearest to the middle of its own edge or face')
-      return
-    end if
-    if (name == 'TET10' .and. any(order /= [(k, k=1, size(order))])) moved = moved + 1
+    if (.not. is_clear) return
+    if (.not. element%smallest_jacobian(model%x(:, node(order))) > zero) return
     node = node(order)
+    moved = moved + 1
   end subroutine take_places
 
   !> The nodes x (3, nodes) of a quadratic element in the order of its type: corners as they

@@ -5,39 +5,14 @@ import itertools
 import random
 
 import numpy as np
+import solid_forms
+from solid_forms import HEX_FACES, split, wedges, with_middles
 
-HEX_FACES = np.array(
-    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]]
-)
 # ELFORM of each form of element.
 FORMS = {
     "HEX8": 1, "HEX8MEAN": 2, "HEX8MODE": -1, "WEDGE6": 15, "PYRAMID5": 1, "TET4": 10,
     "TET10": 16, "HEX27": 24,
 }
-# Corners between which the other nodes of a quadratic element lie.
-TET_MIDDLES = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
-HEX_MIDDLES = [
-    (0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7),
-    *map(tuple, HEX_FACES.tolist()), tuple(range(8)),
-]
-
-
-def tetrahedra(cell):
-    """Six tetrahedra around the diagonal of a cell: one for each way along its edges."""
-    place = {
-        (0, 0, 0): 0, (1, 0, 0): 1, (1, 1, 0): 2, (0, 1, 0): 3,
-        (0, 0, 1): 4, (1, 0, 1): 5, (1, 1, 1): 6, (0, 1, 1): 7,
-    }
-    out = []
-    for order in itertools.permutations(range(3)):
-        at, corners = [0, 0, 0], [0]
-        for d in order:
-            at[d] = 1
-            corners.append(place[tuple(at)])
-        a, b, c, d = (cell[k] for k in corners)
-        even = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-        out.append([a, b, c, d] if even else [a, c, b, d])
-    return [[a, b, c, d, d, d, d, d] for a, b, c, d in out]
 
 
 class Box:
@@ -65,35 +40,21 @@ class Box:
             ]
             self.hexahedra.append(cell)
             if form == "WEDGE6":
-                h = cell
-                self.elements += [[h[0], h[1], h[2], h[3], h[5], h[5], h[6], h[6]]]
-                self.elements += [[h[0], h[5], h[6], h[3], h[4], h[4], h[7], h[7]]]
+                self.elements += wedges([cell])
             elif form == "PYRAMID5":
                 x.append(list(np.mean([x[n] for n in cell], axis=0)))
                 for face in HEX_FACES:
                     base = [cell[n] for n in face[::-1]]
                     self.elements.append(base + 4 * [len(x) - 1])
             elif form in ("TET4", "TET10"):
-                self.elements += tetrahedra(cell)
+                self.elements += split([cell])
             else:
                 self.elements.append(cell)
         if form in ("TET10", "HEX27"):
-            self.add_middles(x, TET_MIDDLES if form == "TET10" else HEX_MIDDLES)
+            at, elements = with_middles([list(p) for p in grid], self.elements)
+            x, self.elements = with_middles(x, elements=self.elements)
+            grid.update({tuple(at[k]): k for k in range(len(grid), len(at))})
         self.x = np.array(x)
-
-    def add_middles(self, x, middles):
-        """The further nodes of quadratic elements, each between its corners."""
-        at = {row: np.array(p) for p, row in self.grid.items()}
-        corners = 4 if len(middles) == 6 else 8
-        for e, element in enumerate(self.elements):
-            nodes = list(element[:corners])
-            for of in middles:
-                p = tuple(sum(at[nodes[k]] for k in of) / len(of))
-                if p not in self.grid:
-                    self.grid[p] = len(x)
-                    x.append(list(np.mean([x[nodes[k]] for k in of], axis=0)))
-                nodes.append(self.grid[p])
-            self.elements[e] = nodes
 
     def on(self, axis, value):
         """Rows of the nodes whose coordinate along an axis has a value."""
@@ -109,22 +70,14 @@ class Box:
 
 
 def cards(x, elements, part=1, first=1, two=False):
-    """*NODE and *ELEMENT_SOLID; ids from `first` on. two: the form of two cards, which elements
-    of ten nodes always have."""
-    two = two or len(elements[0]) == 10
+    """*NODE and *ELEMENT_SOLID or what the elements need; ids from `first` on. two: the form of
+    two cards."""
     lines = ["*NODE"] + ["%d,%r,%r,%r" % (first + k, *map(float, p)) for k, p in enumerate(x)]
-    if len(elements[0]) == 27:
-        lines += ["*ELEMENT_SOLID_H27"]
-        for e, nodes in enumerate(elements):
-            lines.append("%d,%d" % (first + e, part))
-            lines += [",".join(str(first + n) for n in nodes[k : k + 10]) for k in (0, 10, 20)]
-        return lines
-    lines += ["*ELEMENT_SOLID" + (" (ten nodes format)" if two else "")]
+    if not two or len(elements[0]) > 8:
+        return lines + solid_forms.cards(elements, part, first, first)
+    lines.append("*ELEMENT_SOLID (ten nodes format)")
     for e, nodes in enumerate(elements):
-        lines.append("%d,%d,%s" % (first + e, part, "\n" if two else ""))
-        lines[-1] = lines[-1].rstrip("\n") + ",".join(str(first + n) for n in nodes)
-        if two:
-            lines[-1:] = ["%d,%d" % (first + e, part), ",".join(str(first + n) for n in nodes)]
+        lines += ["%d,%d" % (first + e, part), ",".join(str(first + n) for n in nodes)]
     return lines
 
 
