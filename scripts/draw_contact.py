@@ -48,16 +48,12 @@ def measure(folder):
             found["hertz"].append((name, h, off["p_y"], off["q_x"], summary["cpu"]))
             if h == 0.005 and name != "MORTAR, matching":
                 x, length, fx, fy, _ = face_of(meta["x"], folder, 2)
-                faces.append(
-                    (name, colour, x, -fy / length, fx / length, hertz_of(meta, folder))
-                )
+                faces.append((name, colour, x, -fy / length, fx / length, hertz_of(meta, folder)))
         for n in (8, 16, 32):
             edges = {"upper": int(ratio * n), "lower": n}
             meta, summary = solve(folder, "westergaard", pairing=pairing, **edges)
             if meta:
-                found["westergaard"].append(
-                    (name, n, *wave_errors(meta, folder, 2), summary["cpu"])
-                )
+                found["westergaard"].append((name, n, *wave_errors(meta, folder, 2), summary["cpu"]))
     return found, faces
 
 
@@ -84,9 +80,7 @@ def draw(path, found, faces):
     ):
         for name, _, _, colour in PAIRINGS:
             rows = [r for r in found[scene] if r[0] == name]
-            axes.loglog(
-                [r[4] for r in rows], [r[2] for r in rows], "o-", color=colour, label=name
-            )
+            axes.loglog([r[4] for r in rows], [r[2] for r in rows], "o-", color=colour, label=name)
         axes.set(xlabel="CPU [s]", ylabel=label)
         axes.legend(fontsize=7)
     figure.tight_layout()

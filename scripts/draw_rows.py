@@ -53,12 +53,7 @@ def draw_sides(axes):
     """A coarse block over a finer base."""
     axes.set_title("both sides watched: the finer side and corners exact")
     top, low = 0.28, 0.0
-    body(
-        axes,
-        [(0.5, top), (2.5, top), (2.5, 1.1), (0.5, 1.1)],
-        UPPER,
-        [((1.5, top), (1.5, 1.1))],
-    )
+    body(axes, [(0.5, top), (2.5, top), (2.5, 1.1), (0.5, 1.1)], UPPER, [((1.5, top), (1.5, 1.1))])
     steps = [0.6 * k for k in range(6)]
     lines = [((x, low), (x, -0.7)) for x in steps[1:-1]]
     body(axes, [(0, low), (3, low), (3, -0.7), (0, -0.7)], LOWER, lines)
@@ -125,12 +120,7 @@ def draw_vertex(axes):
     label(axes, 2.55, 1.1, "shaded: in −N(i) too", color=NORMAL)
     arrow(axes, k, (0, 0.75), NORMAL, "n", (-0.17, -0.05))
     arrow(axes, i, (-0.5, -0.55), MOTION, "f", (-0.16, 0.0))
-    label(
-        axes,
-        1.42,
-        0.12,
-        "n: the end of the shaded cone whose\nhalf-plane f leaves least, or last",
-    )
+    label(axes, 1.42, 0.12, "n: the end of the shaded cone whose\nhalf-plane f leaves least, or last")
 
 
 def main():
@@ -148,9 +138,7 @@ def main():
         place.title.set_fontsize(10.5)
     names = {EXACT: "exact row, gap ≥ 0", ALLOWANCE: "allowance, gap ≥ −delta"}
     marks = [
-        plt.Line2D(
-            [], [], marker="o", ls="", mfc=c if c == EXACT else "white", mec=c, label=text
-        )
+        plt.Line2D([], [], marker="o", ls="", mfc=c if c == EXACT else "white", mec=c, label=text)
         for c, text in names.items()
     ]
     figure.legend(handles=marks, loc="lower center", ncol=2, frameon=False)

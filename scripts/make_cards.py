@@ -29,9 +29,7 @@ RIGID_QUADS = [(21, 3, 201, 202, 203, 204), (22, 4, 211, 212, 213, 214)]
 
 # Other names of keywords that stand at most once in a deck.
 OTHER_NAMES = {
-    "DATABASE_GLSTAT_MASS_PROPERTIES",
-    "CONTACT_SURFACE_TO_SURFACE",
-    "CONTACT_NODES_TO_SURFACE",
+    "DATABASE_GLSTAT_MASS_PROPERTIES", "CONTACT_SURFACE_TO_SURFACE", "CONTACT_NODES_TO_SURFACE",
     "CONTACT_SINGLE_SURFACE",
 }
 
@@ -58,10 +56,7 @@ SCENE = (
         ("NODE", [{"NID": n, "X": x, "Y": y} for n, x, y in NODES + RIGID]),
         (
             "ELEMENT_SHELL",
-            [
-                dict(zip(("EID", "PID", "N1", "N2", "N3", "N4"), e))
-                for e in QUADS + TRIANGLES + RIGID_QUADS
-            ],
+            [dict(zip(("EID", "PID", "N1", "N2", "N3", "N4"), e)) for e in QUADS + TRIANGLES + RIGID_QUADS],
         ),
         ("ELEMENT_BEAM", [{"EID": 91, "PID": 9, "N1": 1, "N2": 2}]),
         (
@@ -233,34 +228,19 @@ IN_SPACE = (
                 for z in (0, 1)
                 for k, (x, y) in enumerate(CORNERS)
             ]
+            + [{"NID": 9, "X": 2.0, "Y": 0.0, "Z": 0.5}, {"NID": 10, "X": 2.0, "Y": 1.0, "Z": 0.5}]
             + [
-                {"NID": 9, "X": 2.0, "Y": 0.0, "Z": 0.5},
-                {"NID": 10, "X": 2.0, "Y": 1.0, "Z": 0.5},
-            ]
-            + [
-                {
-                    "NID": 8 * b + 4 * z + k + 11,
-                    "X": x + 0.2,
-                    "Y": y + 0.1,
-                    "Z": 1.5 * b + z + 1.5,
-                }
+                {"NID": 8 * b + 4 * z + k + 11, "X": x + 0.2, "Y": y + 0.1, "Z": 1.5 * b + z + 1.5}
                 for b in (0, 1)
                 for z in (0, 1)
                 for k, (x, y) in enumerate(CORNERS)
             ],
         ),
-        (
-            "ELEMENT_SOLID",
-            [
-                dict(
-                    zip(
-                        ["EID", "PID"] + ["N%d" % k for k in range(1, 9)],
-                        [e, p] + list(range(first, first + 8)),
-                    )
-                )
-                for e, p, first in ((1, 1, 1), (3, 2, 11), (4, 3, 19))
-            ],
-        ),
+        ("ELEMENT_SOLID", [
+            dict(zip(["EID", "PID"] + ["N%d" % k for k in range(1, 9)],
+                     [e, p] + list(range(first, first + 8))))
+            for e, p, first in ((1, 1, 1), (3, 2, 11), (4, 3, 19))
+        ]),
         (
             "ELEMENT_SOLID (ten nodes format)",
             [
@@ -268,17 +248,11 @@ IN_SPACE = (
                 dict(zip(["N%d" % k for k in range(1, 9)], [6, 2, 3, 7, 9, 9, 10, 10])),
             ],
         ),
-        (
-            "PART",
-            [
-                {"HEADING": "block"},
-                {"PID": 1, "SECID": 1, "MID": 1},
-                {"HEADING": "above it"},
-                {"PID": 2, "SECID": 1, "MID": 1},
-                {"HEADING": "above that"},
-                {"PID": 3, "SECID": 1, "MID": 1},
-            ],
-        ),
+        ("PART", [
+            {"HEADING": "block"}, {"PID": 1, "SECID": 1, "MID": 1},
+            {"HEADING": "above it"}, {"PID": 2, "SECID": 1, "MID": 1},
+            {"HEADING": "above that"}, {"PID": 3, "SECID": 1, "MID": 1},
+        ]),
         ("SECTION_SOLID", [{"SECID": 1, "ELFORM": -1}]),
         ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
         ("SET_NODE_LIST", [{"SID": 1}, {"NID1": 11, "NID2": 12, "NID3": 13, "NID4": 14}]),
@@ -397,20 +371,15 @@ def deck(program, in_space):
     missing = sorted(set(found) - shown - OTHER_NAMES)
     if missing:
         raise SystemExit("make_cards.py does not show: " + " ".join(missing))
-    out = (
-        HEAD_IN_SPACE[:]
-        if in_space
-        else [
-            "$ Every keyword of bipact once, written by scripts/make_cards.py from the program's own "
-            "table.",
-            "$ A block of quadrilaterals and triangles falls on a held base. Units: any consistent "
-            "set.",
-            "*KEYWORD",
-            "*PARAMETER",
-            "$#   name1    value1     name2    value2     name3    value3     "
-            "name4    value4",
-        ]
-    )
+    out = HEAD_IN_SPACE[:] if in_space else [
+        "$ Every keyword of bipact once, written by scripts/make_cards.py from the program's own "
+        "table.",
+        "$ A block of quadrilaterals and triangles falls on a held base. Units: any consistent "
+        "set.",
+        "*KEYWORD",
+        "*PARAMETER",
+        "$#   name1    value1     name2    value2     name3    value3     " "name4    value4",
+    ]
     for k in range(0, 0 if in_space else len(PARAMETERS), 4):
         out.append("".join(n.ljust(10) + v.rjust(10) for n, v in PARAMETERS[k : k + 4]))
     for name, cards in IN_SPACE if in_space else SCENE:

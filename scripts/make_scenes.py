@@ -244,18 +244,7 @@ def bouncing(o, n=100, periods=1.0):
 
 
 def block_on_plane(
-    o,
-    n,
-    young,
-    extra,
-    tend,
-    tables,
-    mu,
-    density=1.0,
-    size=(1.0, 0.5),
-    title="block",
-    base=0,
-    ground=None,
+    o, n, young, extra, tend, tables, mu, density=1.0, size=(1.0, 0.5), title="block", base=0, ground=None
 ):
     """A block with its foot on the plane y = 0: a rigid wall, or with base=1 a body that is
     fixed in all its nodes, or what `ground` says."""
@@ -405,7 +394,9 @@ def oblique(o, n=12, wide=40, v=1.0, vt=1.0, mu=0.3, poisson=1.0 / 3.0, touch=0.
     tend = tend if tend else math.floor(0.5 * width / c / dt + 1.0e-9) * dt
     young = density * c**2 * (1.0 + poisson) * (1.0 - 2.0 * poisson) / (1.0 - poisson)
     nodes, elements = grid(o, 0.0, touch * dt * v, width, length, wide, n, 1, 1, 1)
-    low, cells = grid(o, -h, -h, width + 4.0 * h, h, 1, 1, 2, 1 + len(nodes), 1 + len(elements))
+    low, cells = grid(
+        o, -h, -h, width + 4.0 * h, h, 1, 1, 2, 1 + len(nodes), 1 + len(elements)
+    )
     foot = [i for i, _, y in nodes[:: n + 1]]
     middle = foot[wide // 2]
     text = deck(
@@ -414,7 +405,9 @@ def oblique(o, n=12, wide=40, v=1.0, vt=1.0, mu=0.3, poisson=1.0 / 3.0, touch=0.
         nodes + low,
         elements + cells,
         2 * [(density, young, poisson)],
-        controls(tend, dt, o, ["GLSTAT", "NODOUT=%r" % dt, "NCFORC=%r" % dt, "RCFORC=%r" % dt]),
+        controls(
+            tend, dt, o, ["GLSTAT", "NODOUT=%r" % dt, "NCFORC=%r" % dt, "RCFORC=%r" % dt]
+        ),
         ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", "11,12,,,%r" % mu]
         + node_set(9, [i for i, _, _ in low])
         + ["*BOUNDARY_SPC_SET", "9,,1,1"]
@@ -462,10 +455,11 @@ def block(o, n=16, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.05):
 
 def disc(o, n=8, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.12, radius=0.5):
     """A disc: a square of n x n elements (n even) in n/2 rings of 4 n; no closed solution in the
-    plane: compared with a fine mesh. Courant number with the side of the elements at the rim.
-    """
+    plane: compared with a fine mesh. Courant number with the side of the elements at the rim."""
     core, rings, around = 0.5 * radius / math.sqrt(2.0), max(1, n // 2), 4 * n
-    nodes, elements = grid(o, -core, radius - core, 2.0 * core, 2.0 * core, n, n, 1, 1, 1)
+    nodes, elements = grid(
+        o, -core, radius - core, 2.0 * core, 2.0 * core, n, n, 1, 1, 1
+    )
 
     def on_core(k):  # node of the square's edge, counter-clockwise from its lower left corner
         side, m = divmod(k % around, n)
@@ -492,9 +486,7 @@ def disc(o, n=8, mu=0.3, v=1.0, vt=0.3, gap=0.01, poisson=0.3, tend=0.12, radius
                 )
     side = 2.0 * math.pi * radius / around
     lowest = ring[-1][n // 2]
-    return thrown(
-        o, nodes, elements, side, "thrown disc", lowest, mu, v, vt, gap, poisson, tend
-    )
+    return thrown(o, nodes, elements, side, "thrown disc", lowest, mu, v, vt, gap, poisson, tend)
 
 
 def drift(o, gap=0.0, v=0.0, mu=0.5, n=4, tend=0.01):
@@ -546,9 +538,7 @@ def mass_on_rod(o, n=100, ratio=1.0, v=1.0, tend=1.9, mu=0.0, part=0):
     return text, {"dt": dt, "tend": tend, "mass": mass, "impedance": 1.0, "v": v}
 
 
-def bowl(
-    o, n=2, steps=5000, periods=2.5, swing=1.0e-3, young=1.0e4, mu=0.0, frame="MID", ramp=0.25
-):
+def bowl(o, n=2, steps=5000, periods=2.5, swing=1.0e-3, young=1.0e4, mu=0.0, frame="MID", ramp=0.25):
     """The block of analytic.GlidingBlock, density 1e-3, starts at the bottom; gravity grows over
     `ramp` of a period. frame: field of *BIPACT_CONTACT."""
     from analytic import GlidingBlock  # needs numpy, which the other scenes do not
@@ -562,9 +552,7 @@ def bowl(
     spin = swing * 2.0 * math.pi / exact.period()
     extra = ["*INITIAL_VELOCITY_NODE"]
     extra += ["%d,%r,%r" % ((i,) + turned(o, -spin * y, spin * x)) for i, x, y in nodes]
-    extra += curve(
-        1, (0.0, 0.0), (ramp * exact.period(), exact.gravity), (1.0e3, exact.gravity)
-    )
+    extra += curve(1, (0.0, 0.0), (ramp * exact.period(), exact.gravity), (1.0e3, exact.gravity))
     extra += gravity(o, 1, 0.0, -1.0)
     extra += geometric(o, "CYLINDER_INTERIOR", 0.0, 0.0, mu, exact.radius)
     text = deck(
@@ -603,13 +591,7 @@ def rigid_bowl(o, steps=5000, periods=2.5, sine=0.28, mu=0.0, frame="MID"):
         controls(steps * dt, dt, o, ["GLSTAT", "RBDOUT", "RWFORC"]),
         extra + ["*BIPACT_CONTACT", "AUTO,", ",%s" % frame],
     )
-    return text, {
-        "dt": dt,
-        "tend": steps * dt,
-        "exact": exact,
-        "swing": swing,
-        "period": period,
-    }
+    return text, {"dt": dt, "tend": steps * dt, "exact": exact, "swing": swing, "period": period}
 
 
 def belt(o, n=4, v=1.0, mu=0.2, g=10.0, young=1.0e5, tend=0.7, ends=None):
@@ -662,9 +644,7 @@ def write(path, scene, mesh=False, **options):
     with open(path, "w", encoding="ascii") as out:
         if mesh:
             said = "".join(" %s=%s" % item for item in options.items())
-            text = "$ Mesh, written by make_scenes.py %s%s --mesh\n" % (scene, said) + mesh_of(
-                text
-            )
+            text = "$ Mesh, written by make_scenes.py %s%s --mesh\n" % (scene, said) + mesh_of(text)
         out.write(text)
     return meta
 
@@ -705,9 +685,7 @@ def main():
     parser.add_argument("scene", choices=sorted(SCENES))
     parser.add_argument("options", nargs="*", metavar="name=value")
     parser.add_argument("-o", metavar="FILE", default="scene.k", help="deck (scene.k)")
-    parser.add_argument(
-        "--mesh", action="store_true", help="only nodes, elements and their sets"
-    )
+    parser.add_argument("--mesh", action="store_true", help="only nodes, elements and their sets")
     a = parser.parse_args()
     options = dict(x.split("=", 1) for x in a.options)
     known = set(COMMON) | set(inspect.signature(SCENES[a.scene]).parameters) - {"o"}

@@ -63,7 +63,9 @@ class Run:
         fields = dict(self.variant)
         words = [fields.pop("SCHEME")]
         for name, value in fields.items():
-            words.append("%s=%s" % (name.lower(), "%g" % value if is_number(value) else value))
+            words.append(
+                "%s=%s" % (name.lower(), "%g" % value if is_number(value) else value)
+            )
         return " ".join(words)
 
     @property
@@ -320,7 +322,9 @@ def sequences_of(runs, results, widths, one_mesh):
         members = sorted(members, key=width, reverse=True)
         if len(members) > 1:
             trusted = not any(results[r].growth for r in members)
-            yield study_estimate.Sequence(method, members, [width(r) for r in members], trusted)
+            yield study_estimate.Sequence(
+                method, members, [width(r) for r in members], trusted
+            )
 
 
 def evaluate(study, widths, endings):

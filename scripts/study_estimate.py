@@ -271,7 +271,9 @@ def estimate(name, sequences, histories, one_mesh=False, unit=None):
     last = [histories[s.runs[-1]] for s in found.members]
     found.reference = mean_of(last)
     apart = [distance(q, found.reference, found.unit) for q in last]
-    found.bar = SAFETY * max(max(apart), float(np.median([s.expected for s in found.members])))
+    found.bar = SAFETY * max(
+        max(apart), float(np.median([s.expected for s in found.members]))
+    )
     judge(found, histories)
     return found
 
