@@ -14,6 +14,7 @@ import subprocess
 import sys
 
 import startup
+from solid_forms import with_middles
 
 NODES = [(10 * j + i + 1, 1.0 * i, -0.5 + 0.5 * j) for j in (0, 1) for i in range(4)]  # base
 NODES += [
@@ -213,8 +214,10 @@ SCENE = (
         ("DATABASE_BINARY_D3PLOT", [{"DT": 0.01, "PSETID": 1}]),
     ]
 )
-# A hexahedron and a wedge beside it, on two cards; they fly, pulled and pressed.
+# A hexahedron and a wedge beside it, on two cards; they fly, pulled and pressed. A quadratic one
+# apart from them.
 CORNERS = [(0, 0), (1, 0), (1, 1), (0, 1)]
+QUADRATIC = with_middles([(x + 4, y, z) for z in (0, 1) for x, y in CORNERS], [range(8)])
 IN_SPACE = (
     [
         ("TITLE", [{"TITLE": "the keywords of models in space"}]),
@@ -234,7 +237,8 @@ IN_SPACE = (
                 for b in (0, 1)
                 for z in (0, 1)
                 for k, (x, y) in enumerate(CORNERS)
-            ],
+            ]
+            + [dict(zip(("NID", "X", "Y", "Z"), (31 + k, *x))) for k, x in enumerate(QUADRATIC[0])],
         ),
         ("ELEMENT_SOLID", [
             dict(zip(["EID", "PID"] + ["N%d" % k for k in range(1, 9)],
@@ -248,12 +252,24 @@ IN_SPACE = (
                 dict(zip(["N%d" % k for k in range(1, 9)], [6, 2, 3, 7, 9, 9, 10, 10])),
             ],
         ),
+        (
+            "ELEMENT_SOLID_H27",
+            [
+                {"EID": 5, "PID": 4},
+                *(
+                    {"N%d" % (k + 1): 31 + QUADRATIC[1][0][k] for k in range(m, min(m + 10, 27))}
+                    for m in (0, 10, 20)
+                ),
+            ],
+        ),
         ("PART", [
             {"HEADING": "block"}, {"PID": 1, "SECID": 1, "MID": 1},
             {"HEADING": "above it"}, {"PID": 2, "SECID": 1, "MID": 1},
             {"HEADING": "above that"}, {"PID": 3, "SECID": 1, "MID": 1},
+            {"HEADING": "quadratic"}, {"PID": 4, "SECID": 2, "MID": 1},
         ]),
         ("SECTION_SOLID", [{"SECID": 1, "ELFORM": -1}]),
+        ("SECTION_SOLID", [{"SECID": 2, "ELFORM": 24}]),
         ("MAT_ELASTIC", [{"MID": 1, "RO": 0.001, "E": 1000.0, "PR": 0.3}]),
         ("SET_NODE_LIST", [{"SID": 1}, {"NID1": 11, "NID2": 12, "NID3": 13, "NID4": 14}]),
         ("SET_SOLID_LIST", [{"SID": 1}, {"EID1": 1}]),

@@ -141,9 +141,9 @@ contains
     end do
   end subroutine read_27
 
-  !> Mid nodes in the order of the element, by the places where they lie, if they are not in that
-  !> order (*ELEMENT_SOLID_H27 has none that all writers keep to). moved: elements counted whose
-  !> order was another.
+  !> Mid nodes in the order of the element, by the places where they lie, if they are not in
+  !> that order (*ELEMENT_SOLID_H27 has none that all writers keep to). moved: elements counted
+  !> whose order was another.
   subroutine take_places(model, name, node, moved)
     type(model_t), intent(in) :: model
     character(*), intent(in) :: name
