@@ -19,7 +19,9 @@ Scenes of rigid parts, of friction that falls with speed and of a moving wall (s
 are judged by scripts/collide_judge.py, from the places of all nodes: true overlap beyond 1e-2 of
 the shorter edge and half the way of a step (contact on velocities: by one more), energy above its
 sources, forces that are not opposite, rigid parts that change their shape. Two rigid blocks are
-"named" under every scheme without a law for their impacts: the warning rigid-impact says it.
+"named" under every scheme without a law for their impacts: the warning rigid-impact says it. Scenes
+in space (stability_space.py) are judged alike, by axes of separation of their tetrahedra (3e-2 of the
+shorter edge).
 
 How far the energy rises is printed in each cell, so that "named" hides nothing. Cells are judged by
 the tables alone. Writes index.md, cells.csv and heat maps. Results are kept in build/stability, so that an
@@ -42,6 +44,7 @@ import compare
 import tables
 import stability_bodies
 import stability_scenes
+import stability_space
 
 PAIRS_OF = [("THETA", mass, redist) for mass in ("CONSISTENT", "LUMPED") for redist in (0, 1)]
 # Contact on velocities alone: what penetrates in a step stays.
@@ -62,7 +65,7 @@ RATIOS = (1.0, 2.0, 10.0, 1.0e3, 1.0e6)  # FS/FD
 DECAYS = (1.0e-6, 1.0e-2, 1.0, 1.0e2, 1.0e4, 1.0e8)
 WAYS = (1.0e-4, 1.0e-2, 0.1, 1.0, 10.0)  # of a step, in edges
 
-SCENES = dict(stability_scenes.SCENES, **stability_bodies.SCENES)
+SCENES = dict(stability_scenes.SCENES, **stability_bodies.SCENES, **stability_space.SCENES)
 BARS = ("bars", "mortar")  # scenes of two bars
 
 # axis: (scene, what varies, its values, is a value inside the range promised for THETA C and L)
@@ -105,6 +108,31 @@ AXES = {
     "falling friction, Courant number": ("falling", "courant", COURANT, lambda v: v <= 100.0),
     "moving wall, friction": ("belt", "mu", (0.0, 0.2, 0.9, 1.0), lambda v: True),
     "moving wall, Courant number": ("belt", "courant", COURANT, lambda v: v <= 100.0),
+    "bars in space, Courant number": ("space_bars", "courant", COURANT, lambda v: v <= 100.0),
+    "bars in space, stiffness ratio": ("space_bars", "youngs", YOUNGS, lambda v: 1e-6 <= v <= 1e6),
+    "bars in space, density ratio": ("space_bars", "densities", POWERS, lambda v: 1e-6 <= v <= 1e6),
+    "bars in space, Poisson ratio": ("space_bars", "poisson", POISSON, lambda v: v <= 0.499),
+    "bars in space, aspect ratio": (
+        "space_bars",
+        "aspect",
+        tuple(10.0**p for p in range(-4, 5)),
+        lambda v: 1.0e-2 <= v <= 1.0e2,
+    ),
+    "corner on a slab, Courant number": ("space_corner", "courant", COURANT, lambda v: v <= 100.0),
+    "corner on a slab, friction": ("space_corner", "mu", MU, lambda v: v <= 10.0),
+    "corner on a slab, stiffness of the slab": (
+        "space_corner",
+        "youngs",
+        SLABS,
+        lambda v: v <= 1e6,
+    ),
+    "flat block of tetrahedra, Courant number": (
+        "space_flat",
+        "courant",
+        COURANT,
+        lambda v: v <= 100.0,
+    ),
+    "flat block of tetrahedra, friction": ("space_flat", "mu", MU, lambda v: v <= 10.0),
     "bouncing bar, 1e5 steps": ("bouncing", "courant", (0.5, 0.9), lambda v: True),
 }
 # Two at a time, for THETA alone: (scene, first, values, second, values)
@@ -261,6 +289,8 @@ def judge(c):
             return dict(result, verdict=verdict, reason=first_words(done, folder))
         if "bodies" in data:
             wrong = stability_bodies.faults(folder, c, data, log, result["growth"])
+        elif "space" in data:
+            wrong = stability_space.faults(out, c, data, log, result["growth"])
         else:
             wrong = faults(out, c, data, log)
         error = error_of(out, c, data)
