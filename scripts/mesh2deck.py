@@ -1,22 +1,26 @@
 #!/usr/bin/env python3
 """Write a mesh file as cards of a deck: mesh2deck.py IN OUT.k [--scene]
 
-IN: Gmsh .msh, Abaqus .inp, VTK .vtk and .vtu, MED .med, and what else meshio reads; linear
-triangles and quadrilaterals in the plane x-y. OUT.k holds *NODE, *ELEMENT_SHELL, *PART and
-sets, for an *INCLUDE:
+IN: Gmsh .msh, Abaqus .inp, VTK .vtk and .vtu, MED .med, and what else meshio reads. A mesh with
+tetrahedra, hexahedra, wedges or pyramids is one in space, of which 10-node tetrahedra and 27-node
+hexahedra are read too; other meshes are linear triangles and quadrilaterals in the plane x-y. OUT.k
+holds *NODE, *ELEMENT_SHELL or *ELEMENT_SOLID, *PART and sets, for an *INCLUDE:
 
-    group of elements   *PART with its name as heading, section 1, the part's id as material,
-                        and *SET_PART_LIST_TITLE; where groups share elements, the pieces are
-                        the parts
-    group of lines      *SET_SEGMENT_TITLE of its exposed edges, *SET_NODE_LIST_TITLE
-    group of points     *SET_NODE_LIST_TITLE
+    group of elements   *PART with its name as heading, section 1 (16 of 10-node tetrahedra, 24
+                        of 27-node hexahedra), the part's id as material, and
+                        *SET_PART_LIST_TITLE; where groups share elements, the pieces are the
+                        parts
+    group of sides      (lines in the plane, surfaces in space) *SET_SEGMENT_TITLE of those that
+                        are exposed, faces turned outward; *SET_NODE_LIST_TITLE
+    group of points, in space of lines
+                        *SET_NODE_LIST_TITLE
 
-Ids are those of the file where it has them. Elements are turned counter-clockwise, nodes
-without element left out. --scene writes OUT_scene.k beside it, a main deck that includes OUT.k
-and runs as it is; one that is there stays. doc/meshes.md shows the way from a geometry to a
-picture.
+Ids are those of the file where it has them. Clockwise elements and solids of negative volume are
+turned, nodes without element left out. --scene writes OUT_scene.k beside it, a main deck that
+includes OUT.k and runs as it is; one that is there stays. doc/meshes.md shows the way from a
+geometry to a picture.
 
-Exit code: 0 done, 2 the mesh makes no plane deck (nothing is written), 3 file error."""
+Exit code: 0 done, 2 the mesh makes no deck (nothing is written), 3 file error."""
 
 import argparse
 import os
@@ -26,31 +30,69 @@ import startup  # noqa: F401  before what is no part of Python
 import numpy as np
 
 from cards import NODE, SHELL, TEN, card, listed, names
-from mesh_data import MeshError, areas, tidy
+from mesh_data import MeshError
 from mesh_files import read_mesh
 from mesh_parts import content
+from mesh_plane import areas
 from mesh_scene import scene_lines
+from mesh_shapes import KINDS, LINEAR, SHAPES, TEN_NODES, TWENTY_SEVEN, counted
+from mesh_solids import volumes
+from mesh_tidy import tidy
+
+TEN_NODES_A_CARD = {
+    TEN_NODES: "*ELEMENT_SOLID (ten nodes format)",
+    TWENTY_SEVEN: "*ELEMENT_SOLID_H27",
+}
+PLANE = "triangle", "quad"
 
 
 def mesh_lines(mesh, found, source):
     """The deck of the mesh."""
     out = ["$ mesh of %s, written by mesh2deck.py" % source, "*KEYWORD"]
-    z = float(mesh.x[0, 2]) or None
     out += ["*NODE", names(NODE, *"nid x y z tc rc".split())]
-    out += [
-        card(NODE, n, x, y, z) for n, (x, y, _) in zip(mesh.node_id.tolist(), mesh.x.tolist())
-    ]
-    out += ["*ELEMENT_SHELL", names(SHELL, *"eid pid n1 n2 n3 n4".split())]
-    part = np.zeros(len(mesh.corners), dtype=np.int64)
+    places = mesh.x.tolist()
+    if mesh.dim == 2:
+        z = places[0][2] or None
+        places = [(x, y, z) for x, y, _ in places]
+    out += [card(NODE, n, *place) for n, place in zip(mesh.node_id.tolist(), places)]
+    part = np.zeros(len(mesh.elements), dtype=np.int64)
     for p in found.parts:
         part[p.rows] = p.id
-    corners = mesh.node_id[mesh.corners].tolist()
-    rows = zip(mesh.element_id.tolist(), part.tolist(), corners)
-    out += [card(SHELL, e, p, *c) for e, p, c in rows]
+    out += shell_lines(mesh, part) if mesh.dim == 2 else solid_lines(mesh, part)
     for p in found.parts:
         labels = names(TEN, *"pid secid mid".split())
-        out += ["*PART", p.title, labels, card(TEN, p.id, 1, p.id)]
+        out += ["*PART", p.title, labels, card(TEN, p.id, p.section, p.id)]
     return out + set_lines(mesh, found) + ["*END"]
+
+
+def shell_lines(mesh, part):
+    """Plane elements; a triangle repeats its third node."""
+    corners = mesh.node_id[mesh.elements.nodes].tolist()
+    rows = zip(mesh.elements.ids.tolist(), part.tolist(), corners)
+    out = ["*ELEMENT_SHELL", names(SHELL, *"eid pid n1 n2 n3 n4".split())]
+    return out + [card(SHELL, e, p, *c) for e, p, c in rows]
+
+
+def solid_lines(mesh, part):
+    """Solids: those of one card, then those of two and of four."""
+    cards = {}
+    for kind, rows, nodes in mesh.elements.each_kind():
+        numbers = mesh.node_id[nodes[:, SHAPES[kind].card]].tolist()
+        heads = zip(mesh.elements.ids[rows].tolist(), part[rows].tolist())
+        found = cards.setdefault(SHAPES[kind].section, [])
+        found += [(row, *head, n) for row, head, n in zip(rows.tolist(), heads, numbers)]
+    out = []
+    for section, elements in sorted(cards.items()):
+        labels = ["n%d" % (k + 1) for k in range(10)]
+        if section == LINEAR:
+            out += ["*ELEMENT_SOLID", names(SHELL, "eid", "pid", *labels[:8])]
+            out += [card(SHELL, e, p, *n) for _, e, p, n in sorted(elements)]
+            continue
+        out += [TEN_NODES_A_CARD[section], names(SHELL, "eid", "pid"), names(SHELL, *labels)]
+        for _, e, p, n in sorted(elements):
+            out += [card(SHELL, e, p)]
+            out += [card(SHELL, *n[k : k + 10]) for k in range(0, len(n), 10)]
+    return out
 
 
 def set_lines(mesh, found):
@@ -66,7 +108,7 @@ def set_lines(mesh, found):
         out += head("NODE_LIST", s) + listed(sorted(mesh.node_id[s.members].tolist()))
     for s in found.segment_sets:
         out += head("SEGMENT", s) + [
-            card(TEN, *pair) for pair in mesh.node_id[s.members].tolist()
+            card(TEN, *side) for side in mesh.node_id[s.members].tolist()
         ]
     return out
 
@@ -75,19 +117,20 @@ def count(n, what):
     return "%d %s%s" % (n, what, "" if n == 1 else "s")
 
 
+def kinds_of(mesh):
+    """How many elements of each kind there are; in the plane of both."""
+    many = np.bincount(mesh.elements.kind, minlength=len(KINDS)).tolist()
+    kinds = [k for k in KINDS if (many[KINDS.index(k)] if mesh.dim == 3 else k in PLANE)]
+    return [counted(many[KINDS.index(k)], k) for k in kinds]
+
+
 def summary(mesh, found, source):
     """What became what."""
-    triangles = int((mesh.corners[:, 3] == mesh.corners[:, 2]).sum())
-    yield "%s: %s, %s, %s" % (
-        source,
-        count(len(mesh.x), "node"),
-        count(triangles, "triangle"),
-        count(len(mesh.corners) - triangles, "quadrilateral"),
-    )
-    area = areas(mesh)
+    yield "%s: %s" % (source, ", ".join([count(len(mesh.x), "node")] + kinds_of(mesh)))
+    name, measure = ("area", areas(mesh)) if mesh.dim == 2 else ("volume", volumes(mesh))
     for p in found.parts:
-        size = count(len(p.rows), "element"), area[p.rows].sum()
-        yield '  part %d "%s": %s, area %.6g' % (p.id, p.title, *size)
+        size = count(len(p.rows), "element"), name, measure[p.rows].sum()
+        yield '  part %d "%s": %s, %s %.6g' % (p.id, p.title, *size)
     for s in found.part_sets:
         label = "part" if len(s.members) == 1 else "parts"
         yield '  part set %d "%s": %s %s' % (
@@ -98,8 +141,9 @@ def summary(mesh, found, source):
         )
     for s in found.node_sets:
         yield '  node set %d "%s": %s' % (s.id, s.title, count(len(s.members), "node"))
+    side = "edge" if mesh.dim == 2 else "face"
     for s in found.segment_sets:
-        yield '  segment set %d "%s": %s' % (s.id, s.title, count(len(s.members), "edge"))
+        yield '  segment set %d "%s": %s' % (s.id, s.title, count(len(s.members), side))
     for note in dict.fromkeys(mesh.notes):
         yield "  " + note
 

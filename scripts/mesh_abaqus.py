@@ -9,20 +9,57 @@ import re
 import numpy as np
 
 from mesh_data import Group, Mesh, MeshError
+from mesh_shapes import KINDS, SHAPES, all_of_side
 
+SOLID = re.compile(r"(C3D|DC3D|AC3D|CC3D|DCC3D|Q3D)(4|5|6|8|10|27)[A-Z]*$")
 PLANE = re.compile(
-    r"(CPEG|CPE|CPS|CAX|CGAX|DC2D|DCAX|AC2D|ACAX|M3D|SFM3D|R3D|STRI|DS|S)([34])[A-Z]*\d?$"
+    r"(CPEG|CPE|CPS|CAX|CGAX|DC2D|DCAX|AC2D|ACAX|M3D|SFM3D|R3D|STRI|DS|S)([34689])[A-Z]*\d?$"
 )
 LINE = re.compile(r"(([TR][23]D|RAX)2|B[23][13]|[SM]AX1|FRAME2D)[A-Z]*$")
+LINE3 = re.compile(r"(T[23]D3|B[23]2)[A-Z]*$")
+SOLIDS = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron", 10: "tetra10"}
+SOLIDS[27] = "hexahedron27"
+PLATES = {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}
+# Node 21 is the centre, 22 to 27 are those of the faces S1 to S6.
+ORDER = {"hexahedron27": [*range(20), 26, 24, 23, 25, 21, 22, 20]}
+# Faces S1, S2, ... of solids; of plane elements they are the edges in their order.
+TETRAHEDRON = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]
+HEXAHEDRON = [
+    (0, 1, 2, 3),
+    (4, 7, 6, 5),
+    (0, 4, 5, 1),
+    (1, 5, 6, 2),
+    (2, 6, 7, 3),
+    (3, 7, 4, 0),
+]
+SIDE_KINDS = {2: "line", 3: "triangle", 4: "quad", 6: "triangle6", 9: "quad9"}
+FACES = {"tetra": TETRAHEDRON, "tetra10": TETRAHEDRON}
+FACES.update({"hexahedron": HEXAHEDRON, "hexahedron27": HEXAHEDRON})
+FACES["wedge"] = [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
+FACES["pyramid"] = [(0, 1, 2, 3), (0, 4, 1), (1, 4, 2), (2, 4, 3), (3, 4, 0)]
 GENERATORS = "NGEN NFILL NCOPY NMAP ELGEN ELCOPY SYSTEM".split()  # make or move nodes, elements
 SETS = {"NSET": "node", "ELSET": "element"}
+
+
+def kind_of(said):
+    """The kind of a TYPE of elements; None: it is not read."""
+    if LINE.match(said):
+        return "line"
+    if LINE3.match(said):
+        return "line3"
+    for pattern, kinds in ((PLANE, PLATES), (SOLID, SOLIDS)):
+        found = pattern.match(said)
+        if found:
+            return kinds[int(found.group(2))]
+    return None
 
 
 class Scope:
     """What a part defines, or the file outside of parts."""
 
     def __init__(self):
-        self.nodes, self.blocks = {}, []  # {id: coordinates}; [(type, ids, ids of nodes)]
+        self.nodes = {}  # {id: coordinates}
+        self.blocks = []  # [(kind or TYPE, TYPE, ids, ids of nodes or None)]
         self.sets = {"NSET": {}, "ELSET": {}}  # {NAME: [(INSTANCE or '', id or NAME of a set)]}
         self.surfaces = {}  # {NAME: (type, INSTANCE or '', [fields])}
         self.shown = {}  # names as they are written first
@@ -117,19 +154,21 @@ class Reader:
             self.add_to("NSET", values["NSET"], "", ids)
 
     def take_element(self, values, data):
-        kind = values["TYPE"].upper()
-        plane, line = PLANE.match(kind), LINE.match(kind)
-        if not (plane or line):
-            self.here.blocks.append((kind, np.zeros(len(data)), None))
+        said = values["TYPE"].upper()
+        kind = kind_of(said)
+        self.axisymmetric |= "AX" in said and kind in ("triangle", "quad")
+        if kind is None:
+            many = re.search(r"3D(\d+)", said)
+            words = sum(len(fields(line)) for line in data)
+            count = words // (int(many.group(1)) + 1) if many else len(data)
+            self.here.blocks.append((said, said, np.zeros(count), None))
             return
-        self.axisymmetric |= plane is not None and "AX" in plane.group(1)
-        count = int(plane.group(2)) if plane else 2
-        numbers = whole_numbers(data)
+        count, numbers = SHAPES[kind].nodes, whole_numbers(data)
         if len(numbers) % (count + 1):
-            raise ValueError("elements of type %s have %d nodes" % (kind, count))
+            raise ValueError("elements of type %s have %d nodes" % (said, count))
         table = np.array(numbers, dtype=np.int64).reshape(-1, count + 1)
-        kind = "line" if line else "triangle" if count == 3 else "quad"
-        self.here.blocks.append((kind, table[:, 0], table[:, 1:]))
+        nodes = table[:, 1:][:, ORDER.get(kind, range(count))]
+        self.here.blocks.append((kind, said, table[:, 0], nodes))
         if "ELSET" in values:
             self.add_to("ELSET", values["ELSET"], "", table[:, 0].tolist())
 
@@ -197,7 +236,7 @@ class Assembler:
         if read.axisymmetric:
             self.mesh.notes.append("axisymmetric elements are read as plane ones")
         self.place_elements()
-        if not self.mesh.refused:
+        if all(kind in SHAPES for kind, _ in self.mesh.counts):
             for instance in self.all:
                 self.add_groups(instance)
 
@@ -220,27 +259,26 @@ class Assembler:
     def place_elements(self):
         plain = self.mesh.node_id is not None
         for instance in self.all:
-            for kind, ids, nodes in instance.scope.blocks:
+            for kind, said, ids, nodes in instance.scope.blocks:
                 if nodes is None:
                     self.mesh.add(kind, ids)
-                    continue
-                if not len(ids):
-                    continue
-                rows = self.node_rows(instance, ids, nodes)
-                got = self.mesh.add(kind, rows, ids if plain else None, instance.name or "mesh")
-                dim = 1 if kind == "line" else 2
-                before = len(instance.element)
-                instance.element.update(
-                    (e, (dim, r)) for e, r in zip(ids.tolist(), got.tolist())
+                elif len(ids):
+                    rows = self.node_rows(instance, ids, nodes)
+                    where = instance.name or "mesh"
+                    got = self.mesh.add(kind, rows, ids if plain else None, where, said)
+                    self.name_elements(instance, SHAPES[kind].dim, ids, got)
+        for cells in self.mesh.cells.values():
+            if cells.ids is not None and len(set(cells.ids.tolist())) != len(cells):
+                cells.ids = None
+                self.mesh.notes.append(
+                    "elements numbered anew: several parts have the same numbers"
                 )
-                if len(instance.element) != before + len(ids):
-                    raise MeshError("an element number stands twice")
-        ids = self.mesh.element_id
-        if ids is not None and len(set(ids.tolist())) != len(ids):
-            self.mesh.element_id = None
-            self.mesh.notes.append(
-                "elements numbered anew: several parts have the same numbers"
-            )
+
+    def name_elements(self, instance, dim, ids, rows):
+        before = len(instance.element)
+        instance.element.update((e, (dim, r)) for e, r in zip(ids.tolist(), rows.tolist()))
+        if len(instance.element) != before + len(ids):
+            raise MeshError("an element number stands twice")
 
     def node_rows(self, instance, ids, nodes):
         try:
@@ -296,8 +334,8 @@ class Assembler:
         several = len(self.named) > 1 and instance.name
         prefix = instance.name + "." if several else ""
         if several:
-            rows = [r for dim, r in instance.element.values() if dim == 2]
-            self.mesh.groups.append(Group(2, instance.name, rows, rank=2))
+            rows = [r for dim, r in instance.element.values() if dim == self.mesh.dim]
+            self.mesh.groups.append(Group(self.mesh.dim, instance.name, rows, rank=2))
         for name in scope.sets["NSET"]:
             if name not in scope.internal:
                 rows = self.members("NSET", scope, instance, name)
@@ -305,7 +343,7 @@ class Assembler:
         for name in scope.sets["ELSET"]:
             if name not in scope.internal:
                 found = self.members("ELSET", scope, instance, name)
-                for dim in (2, 1):
+                for dim in (3, 2, 1):
                     rows = [r for d, r in found if d == dim]
                     rank = 0 if name in scope.declared else 1
                     self.mesh.groups.append(
@@ -315,33 +353,47 @@ class Assembler:
             self.add_surface(instance, prefix + scope.shown[name], kind, owner, rows)
 
     def add_surface(self, instance, name, kind, owner, rows):
-        """Faces S1 to S4 of elements (E1 to E4 of shells) become lines."""
+        """Faces S1, S2, ... of elements (E1 to E4 of shells) become cells: their sides."""
         target = self.instance(owner) if owner else instance
-        what = "NSET" if kind == "NODE" else "ELSET"
-        pairs, left = [], 0
+        if kind == "NODE":
+            nodes = []
+            for words in rows:
+                nodes += self.chosen("NSET", instance, target, owner, words[0], name)
+            if nodes:
+                self.mesh.groups.append(Group(0, name, nodes))
+            return
+        sides, left = {}, 0
         for words in rows:
-            if words[0].isdigit():
-                found = [self.row(what, target, int(words[0]), name)]
-            else:
-                found = self.named_set(what, instance.scope, target, owner, words[0])
-            if what == "NSET":
-                pairs += found
-                continue
-            face = re.match(r"[SE]([1-4])$", words[1] if len(words) > 1 else "")
-            edges = [self.edge(e, int(face.group(1))) for e in found if face and e[0] == 2]
-            pairs += edges
-            left += len(found) - len(edges)
+            chosen = self.chosen("ELSET", instance, target, owner, words[0], name)
+            face = re.match(r"[SE]([1-6])$", words[1] if len(words) > 1 else "")
+            found = [row for dim, row in chosen if face and dim == self.mesh.dim]
+            for row in found:
+                side, nodes = self.side(row, int(face.group(1)))
+                sides.setdefault(side, []).append(nodes)
+            left += len(chosen) - len(found)
         if left:
+            what = "edges" if self.mesh.dim == 2 else "faces of solids"
             self.mesh.notes.append(
-                'faces of the surface "%s" that are no edges left out: %d' % (name, left)
+                'faces of the surface "%s" that are no %s left out: %d' % (name, what, left)
             )
-        if pairs:
-            members = pairs if what == "NSET" else self.mesh.add("line", pairs)
-            self.mesh.groups.append(Group(0 if what == "NSET" else 1, name, members))
+        members = [self.mesh.add(side, nodes) for side, nodes in sides.items()]
+        if members:
+            self.mesh.groups.append(Group(self.mesh.dim - 1, name, np.concatenate(members)))
 
-    def edge(self, element, face):
-        corner = self.mesh.corners[element[1]]
-        count = 3 if corner[3] == corner[2] else 4
-        if face > count:
-            raise MeshError("a triangle has no face S%d" % face)
-        return corner[face - 1], corner[face % count]
+    def chosen(self, what, instance, target, owner, word, name):
+        """What a line of a surface begins with: a number or a set."""
+        if word.isdigit():
+            return [self.row(what, target, int(word), name)]
+        return self.named_set(what, instance.scope, target, owner, word)
+
+    def side(self, row, face):
+        """(kind, nodes) of the side of an element that is face S1, S2, ..."""
+        elements = self.mesh.elements
+        kind, nodes = KINDS[elements.kind[row]], elements.nodes[row]
+        if kind == "quad" and nodes[3] == nodes[2]:
+            kind = "triangle"
+        faces = FACES.get(kind, SHAPES[kind].sides)
+        if face > len(faces):
+            raise MeshError("a %s has no face S%d" % (kind, face))
+        local = all_of_side(kind, faces[face - 1])
+        return SIDE_KINDS[len(local)], nodes[local]

@@ -10,13 +10,23 @@ import warnings
 import numpy as np
 
 from mesh_abaqus import read_abaqus
-from mesh_data import KINDS, Group, Mesh, MeshError
+from mesh_data import Group, Mesh, MeshError
+from mesh_shapes import dimension
 
 # Cell data of other programs that number parts, the first that is there is taken.
 PART_DATA = (
     "gmsh:physical part partid part_id pid material materialid materialids mat matid "
     "cellentityids medit:ref nastran:ref su2:tag attribute"
 ).split()
+
+# Kinds of cells by the number of their type in Gmsh.
+GMSH_KINDS = {15: "vertex", 1: "line", 8: "line3", 2: "triangle", 9: "triangle6", 3: "quad"}
+GMSH_KINDS.update({16: "quad8", 10: "quad9", 4: "tetra", 5: "hexahedron", 6: "wedge"})
+GMSH_KINDS.update({7: "pyramid", 11: "tetra10", 12: "hexahedron27"})
+# Its places of the nodes of mesh_shapes, where the order differs.
+GMSH_ORDER = {"tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
+GMSH_ORDER["hexahedron27"] = [*range(8), 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15]
+GMSH_ORDER["hexahedron27"] += [22, 23, 21, 24, 20, 25, 26]
 
 
 def read_mesh(path, part_data=None):
@@ -84,21 +94,18 @@ def from_gmsh(model):
     for dim, tag in model.getEntities():
         kinds, ids, nodes = model.mesh.getElements(dim, tag)
         found = members[dim, tag] = [np.zeros(0, dtype=np.int64)]
-        for kind, eid, flat in zip(kinds, ids, nodes):
-            name, _, _, count, _, _ = model.mesh.getElementProperties(kind)
-            kind = {"Point": "vertex", "Line 2": "line", "Triangle 3": "triangle"}.get(
-                name, name
-            )
-            kind = "quad" if name in ("Quadrilateral 4", "Quadrangle 4") else kind
+        for number, eid, flat in zip(kinds, ids, nodes):
+            name, _, _, count, _, _ = model.mesh.getElementProperties(number)
+            kind = GMSH_KINDS.get(number, name)
             rows = np.searchsorted(node_id, flat).reshape(-1, count)
-            region = "surface %d" % tag
-            found.append(mesh.add(kind, rows, eid if KINDS.get(kind) == 2 else None, region))
+            rows = rows[:, GMSH_ORDER.get(kind, range(count))]
+            region = "%s %d" % ("volume" if dim == 3 else "surface", tag)
+            found.append(mesh.add(kind, rows, eid, region, name))
     for dim, number in model.getPhysicalGroups():
         name = model.getPhysicalName(dim, number) or "group %d" % number
         entities = model.getEntitiesForPhysicalGroup(dim, number)
-        if dim < 3:
-            rows = np.concatenate([r for t in entities for r in members.get((dim, t), [])])
-            mesh.groups.append(Group(dim, name, rows, number))
+        rows = np.concatenate([r for t in entities for r in members.get((dim, t), [])])
+        mesh.groups.append(Group(dim, name, rows, number))
     return mesh
 
 
@@ -144,7 +151,7 @@ def from_meshio(found, part_data):
         if kind == "polygon" and nodes.ndim == 2 and nodes.shape[1] in (3, 4):
             kind = "triangle" if nodes.shape[1] == 3 else "quad"
         rows.append(mesh.add(kind, nodes))
-        dims.append(KINDS.get(kind, 3))
+        dims.append(dimension(kind))
     if getattr(found, "cell_tags", None) or getattr(found, "point_tags", None):
         add_families(mesh, found, rows, dims)
     for name, blocks in found.cell_sets.items():
@@ -160,7 +167,7 @@ def from_meshio(found, part_data):
 
 def add_by_dim(mesh, name, chosen, dims, number=0):
     """One group for each dimension of the chosen cells, given by block."""
-    for dim in (2, 1, 0):
+    for dim in (3, 2, 1, 0):
         members = [c for c, d in zip(chosen, dims) if d == dim and len(c)]
         if members:
             mesh.groups.append(Group(dim, name, np.concatenate(members), number))
