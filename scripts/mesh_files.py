@@ -11,7 +11,7 @@ import numpy as np
 
 from mesh_abaqus import read_abaqus
 from mesh_data import Group, Mesh, MeshError
-from mesh_shapes import dimension
+from mesh_shapes import SOLIDS_TAKEN, dimension
 
 # Cell data of other programs that number parts, the first that is there is taken.
 PART_DATA = (
@@ -124,6 +124,11 @@ def read_by_meshio(path, part_data):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 found = meshio.read(path)
+    except KeyError as problem:  # a kind of cells
+        raise MeshError(
+            "meshio cannot read it: it knows no cells of type %s, nor does a deck. %s"
+            % (problem.args[0], SOLIDS_TAKEN)
+        ) from None
     except (Exception, SystemExit) as problem:  # it ends the program where it cannot read
         lines = told.getvalue().split("\n") + [""]
         raise MeshError("meshio cannot read it: %s" % (lines[0].strip() or problem)) from None

@@ -9,6 +9,10 @@ TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
 WEDGE = [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]
 PYRAMID = [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
 LINEAR, TEN_NODES, TWENTY_SEVEN = 1, 16, 24  # sections of solids, of the number of their ELFORM
+SOLIDS_TAKEN = (
+    "It takes tetrahedra with 4 or 10 nodes, hexahedra with 8 or 27, wedges with 6, pyramids with "
+    "5: mesh with linear elements (gmsh -3 -order 1), tetrahedra with 10 nodes or hexahedra with 27"
+)
 
 
 def shape(dim, corners, sides=(), middles=(), nodes=None, card=None, back=None, section=0):

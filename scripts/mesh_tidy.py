@@ -7,7 +7,7 @@ import numpy as np
 import mesh_plane
 import mesh_solids
 from mesh_data import LARGEST_ID, MeshError, node_name, same_members
-from mesh_shapes import QUADRATIC, SHAPES
+from mesh_shapes import QUADRATIC, SHAPES, SOLIDS_TAKEN
 
 SMALLEST = 1.0e-75  # the deck takes no number below, but 0 [L]
 OF_SOLIDS = re.compile("tetra|hexa|wedge|pyramid|prism|D?C*3D", re.IGNORECASE)
@@ -15,11 +15,7 @@ PLANE = (
     "a plane deck does not take: %s. It takes triangles with 3 nodes and quadrilaterals with 4: "
     "mesh in the plane with linear elements (gmsh -2 -order 1)"
 )
-SPACE = (
-    "a deck in space does not take: %s. It takes tetrahedra with 4 or 10 nodes, hexahedra with 8 "
-    "or 27, wedges with 6, pyramids with 5: mesh with linear elements (gmsh -3 -order 1), "
-    "tetrahedra with 10 nodes or hexahedra with 27"
-)
+SPACE = "a deck in space does not take: %s. " + SOLIDS_TAKEN
 
 
 def tidy(mesh):

@@ -91,14 +91,41 @@ def headings(deck):
     return found
 
 
-def is_valid(deck="out.k"):
-    """bipact takes the mesh by *INCLUDE: --check of a main deck around it."""
-    mids = sorted({mid for _, _, mid in Deck(path(deck)).parts().values()})
+def around(deck, *more):
+    """A main deck of motion around a mesh that is included, of materials of density 1."""
+    parts = Deck(path(deck)).parts().values()
     lines = ["*KEYWORD", "*INCLUDE", deck, "*CONTROL_TERMINATION", "1.0,"]
     lines += ["*CONTROL_IMPLICIT_GENERAL", "1,0.1", "*CONTROL_IMPLICIT_DYNAMICS", "1,"]
-    lines += ["*SECTION_SHELL", "1,13", "1.0,"]
-    for mid in mids:
+    if "*ELEMENT_SHELL" in Deck(path(deck)).cards:
+        lines += ["*SECTION_SHELL", "1,13", "1.0,"]
+    else:
+        forms = {1: -1, 16: 16, 24: 24}
+        for section in sorted({s for _, s, _ in parts}):
+            lines += ["*SECTION_SOLID", "%d,%d" % (section, forms[section])]
+    for mid in sorted({mid for _, _, mid in parts}):
         lines += ["*MAT_ELASTIC", "%d,1.0,1.0" % mid]
-    main = put("main.k", "\n".join(lines + ["*END", ""]))
-    code, errors, _ = bipact(main, path("main"), "--check")
+    return put("main.k", "\n".join(lines + [*more, "*END", ""]))
+
+
+def is_valid(deck="out.k"):
+    """bipact takes the mesh by *INCLUDE: --check of a main deck around it."""
+    code, errors, _ = bipact(around(deck), path("main"), "--check")
     check(code == 0, "%s is refused: %s" % (deck, errors))
+
+
+def three(members):
+    """Segments of a set in space as lists of their three or four different corners."""
+    found = [members[k : k + 4] for k in range(0, len(members), 4)]
+    return [s[:3] if s[2] == s[3] else s for s in found]
+
+
+def flux(deck, segments):
+    """Flux of the place through faces: three times the volume that they close, outward. A face
+    with four corners is bilinear: the mean of its two pairs of triangles."""
+    at, total = {n: np.array(p) for n, p in deck.points().items()}, 0.0
+    for s in segments:
+        c = [at[n] for n in s]
+        pairs = [(0, 1, 2)] if len(s) == 3 else [(0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2, 3)]
+        each = [c[i] @ np.cross(c[j], c[k]) for i, j, k in pairs]
+        total += 0.5 * sum(each) / max(1, len(pairs) / 2)
+    return total

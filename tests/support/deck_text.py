@@ -12,6 +12,9 @@ class Deck:
     WIDTHS = {
         "*NODE": (8, 16, 16, 16, 8, 8),
         "*ELEMENT_SHELL": (8,) * 10,
+        "*ELEMENT_SOLID": (8,) * 10,
+        "*ELEMENT_SOLID (ten nodes format)": (8,) * 10,
+        "*ELEMENT_SOLID_H27": (8,) * 10,
         "*PARAMETER": (10,) * 8,
     }
     TITLES = {
@@ -81,6 +84,20 @@ class Deck:
             int(f[0]): (int(f[1]), [int(n) for n in f[2:6]])
             for f in self.cards["*ELEMENT_SHELL"]
         }
+
+    def points(self):
+        """{id: (x, y, z)}"""
+        return {int(f[0]): tuple(float(v) for v in f[1:4]) for f in self.cards["*NODE"]}
+
+    def solids(self):
+        """{id: (part, [nodes as on the cards])}"""
+        found = {}
+        for keyword, many in (("", 1), (" (ten nodes format)", 2), ("_H27", 4)):
+            cards = self.cards.get("*ELEMENT_SOLID" + keyword, [])
+            for k in range(0, len(cards), many):
+                numbers = [int(n) for card in cards[k : k + many] for n in card if n]
+                found[numbers[0]] = numbers[1], numbers[2:]
+        return found
 
     def sets(self, keyword="*SET_NODE_LIST_TITLE"):
         """{set id: [members]} of a keyword with titles"""
