@@ -15,7 +15,9 @@ YOUNG, DENSITY, POISSON, FRICTION = 1000.0, 0.001, 0.3, 0.2  # [F L-2], [M L-3],
 SPEED = math.sqrt(YOUNG / DENSITY)  # of waves in a bar [L T-1]
 STEEP = 250  # bodies fly SPEED/STEEP: they turn by less than 5 degrees before the end
 FLIGHT = 10  # steps before the touch
-CROSSINGS = 5  # of the largest body by a wave, from the touch to the end: beyond the bounce
+# Of the largest body by a wave, from the touch to the end: beyond the bounce, which takes a ball
+# longer than a disc.
+CROSSINGS = {2: 5, 3: 9}
 FRAMES = 50
 
 
@@ -27,7 +29,7 @@ def times(mesh, parted):
     edge = float(np.median(edges[edges > 0.0]))
     dt = Decimal("%.1e" % (0.5 * edge / SPEED))  # a wave crosses half an edge in a step
     size = max(float(np.ptp(mesh.x[rows], axis=0).max()) for rows in parted)
-    steps = FLIGHT + CROSSINGS * size / SPEED / float(dt)
+    steps = FLIGHT + CROSSINGS[mesh.dim] * size / SPEED / float(dt)
     steps = int(
         Decimal("%.2e" % math.ceil(1.005 * steps))
     )  # few digits: the end fits its field

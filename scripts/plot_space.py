@@ -7,12 +7,16 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.colors import LightSource
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-# Faces of cells by their VTK type and number of corners.
+from mesh_shapes import SHAPES, outline
+
+# Faces of cells by their VTK type; of quadratic ones with the nodes between corners.
 FACES = {
     10: ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
     12: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
     13: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     14: ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+    24: [outline("tetra10", side) for side in SHAPES["tetra10"].sides],
+    29: [outline("hexahedron27", side) for side in SHAPES["hexahedron27"].sides],
 }
 
 
@@ -64,7 +68,8 @@ class Scene:
         cmap = plt.get_cmap(colours["cmap"])
         shown = cmap(colours["norm"](np.nan_to_num(self.values(k), nan=limits[0])))
         shapes = [places[f] for f in self.faces]
-        normal = np.array([np.cross(s[1] - s[0], s[2] - s[0]) for s in shapes])
+        thirds = [(s[0], s[len(s) // 3], s[2 * len(s) // 3]) for s in shapes]
+        normal = np.array([np.cross(b - a, c - a) for a, b, c in thirds])
         normal /= np.linalg.norm(normal, axis=1)[:, None] + 1e-300
         light = LightSource(225, 45).direction
         shown[:, :3] *= (0.75 + 0.25 * np.abs(normal @ light))[:, None]
