@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import subprocess
 import sys
 
 import numpy as np
@@ -58,6 +59,26 @@ def refused(source, *words, code=2):
     check(
         not [n for n in os.listdir(TMP) if n.startswith("refused")], what + ": a file is there"
     )
+
+
+def gmsh(name, geometry, *options, dim=2):
+    """Meshes a geometry to a file; returns its path."""
+    source = put("geometry.geo", geometry)
+    done = subprocess.run(
+        [
+            sys.executable,
+            os.path.join(os.path.dirname(sys.executable), "gmsh"),
+            source,
+            "-%d" % dim,
+        ]
+        + ["-o", path(name)]
+        + list(options),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    check(done.returncode == 0 and os.path.exists(path(name)), "gmsh: " + done.stdout)
+    return path(name)
 
 
 def areas(deck):
