@@ -42,6 +42,10 @@ PLACES = {
     "disc.k": "plate.k",
     "disc_scene.k": "plate_scene.k",
     "disc_scene.out": "plate_scene.out",
+    "ball.msh": "block.inp",
+    "ball.k": "block.k",
+    "ball_scene.k": "block_scene.k",
+    "ball_scene.out": "block_scene.out",
 }
 PLATE = """*NODE
 1, 0.0, 0.0
@@ -53,6 +57,18 @@ PLATE = """*NODE
 *ELEMENT, TYPE=CPS4, ELSET=plate
 1, 1, 2, 5, 4
 2, 2, 3, 6, 5
+"""
+BLOCK = """*NODE
+1, 0.0, 0.0, 0.0
+2, 1.0, 0.0, 0.0
+3, 1.0, 1.0, 0.0
+4, 0.0, 1.0, 0.0
+5, 0.0, 0.0, 1.0
+6, 1.0, 0.0, 1.0
+7, 1.0, 1.0, 1.0
+8, 0.0, 1.0, 1.0
+*ELEMENT, TYPE=C3D8, ELSET=block
+1, 1, 2, 3, 4, 5, 6, 7, 8
 """
 # Of the tree of sources, which is not installed.
 STAYS = (
@@ -169,8 +185,9 @@ def prepare():
     with open(os.path.join(WORK, "run.k"), "w") as file:
         file.write(text.replace("*END", cards + "*END"))
     shutil.copy(os.path.join(ROOT, "input", "two_bars", "mesh.k"), WORK)
-    with open(os.path.join(WORK, "plate.inp"), "w") as file:
-        file.write(PLATE)
+    for name, text in (("plate.inp", PLATE), ("block.inp", BLOCK)):
+        with open(os.path.join(WORK, name), "w") as file:
+            file.write(text)
     with open(os.path.join(WORK, "comma.k"), "w") as file:
         file.write("*KEYWORD\n*PARAMETER\n$ a comment\nRmu,0.3,Cmass,LUMPED\n*END\n")
     code, _, errors = call(
@@ -206,7 +223,7 @@ def runnable(command):
     if len(words) < 2 or "[" in command or os.path.basename(words[0]) in STAYS:
         return None
     needs_hdf5 = words[0].endswith("fclib") or re.search(
-        r"\bRUN\b|--restart|disc_scene", command
+        r"\bRUN\b|--restart|(?:disc|ball)_scene", command
     )
     if needs_hdf5 and not HDF5:
         return None
