@@ -89,7 +89,8 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole, work_of, inverse_bytes, demand_memory, check_graph, check_matrix, check_vectors
+  public :: solve_whole, work_of, inverse_bytes, demand_memory, check_graph, check_matrix, &
+      check_vectors
 
 contains
 
@@ -129,15 +130,15 @@ contains
     work_of = 2.0e-9_wp*solver%d**3*real(solver%info%multiplications, wp)
   end function work_of
 
-  !> Bytes of the inverse of the contact block, which stands beside the factor. The block itself,
-  !> of the same size, is part of factor_bytes.
+  !> Bytes of the inverse of the contact block, which stands beside the factor. The block
+  !> itself, of the same size, is part of factor_bytes.
   pure integer(i8) function inverse_bytes(solver)
     class(solver_t), intent(in) :: solver
     inverse_bytes = 8_i8*(solver%d*int(solver%n_interface, i8))**2
   end function inverse_bytes
 
-  !> Before anything is allocated: do the factor, of factor_bytes, and the inverse of the contact
-  !> block fit into the memory of the machine? Fails where they do not.
+  !> Before anything is allocated: do the factor, of factor_bytes, and the inverse of the
+  !> contact block fit into the memory of the machine? Fails where they do not.
   subroutine demand_memory(solver, status)
     class(solver_t), intent(in) :: solver
     type(status_t), intent(inout) :: status
