@@ -229,7 +229,7 @@ def ball(path, program):
         min(of_ball, key=lambda i: np.linalg.norm(nodes[i])),
         min(plate, key=lambda i: np.linalg.norm(nodes[i])),
     ]
-    sets["POLES"] = poles
+    sets["SEEN"] = of_ball + poles[1:]
     fixed = ["XS, 1, 1", "YS, 2, 2", "FAR, 1, 3"]
     size = float(np.linalg.norm(np.subtract(nodes[solids[0][1]], nodes[solids[0][2]])))
     text = calculix(
@@ -243,17 +243,20 @@ def ball(path, program):
         size,
         step,
         end,
-        "POLES",
+        "SEEN",
     )
     t, u, energy, cpu = run_calculix(path, text)
     order = {int(k): c for c, k in enumerate(u[0, :, 0])}
     down = u[:, order[poles[1]], 3] - u[:, order[poles[0]], 3] - 1.0e-3
+    mass = masses(nodes, solids)
+    middle = sum(m * u[:, order[n], 3] for n, m in mass.items()) / sum(mass.values())
+    speed = abs(middle[-1] - middle[-11]) / (t[-1] - t[-11])
     show(
         "ball",
         "CalculiX",
         step,
-        float("nan"),
-        energy[-1] / first_energy(nodes, solids) - 1,
+        speed,
+        energy[-1] / (0.5 * sum(mass.values())) - 1,
         down.max(),
         cpu,
     )
@@ -267,9 +270,10 @@ def pole_face(nodes, corners, axis):
     )
 
 
-def first_energy(nodes, solids):
-    """Half the mass of the ball, from the volumes of its hexahedra by eight points."""
-    total, g = 0.0, 1 / np.sqrt(3)
+def masses(nodes, solids):
+    """{node: mass} of the ball, an eighth of each of its hexahedra, whose volume is summed over
+    eight points."""
+    found, g = {}, 1 / np.sqrt(3)
     signs = np.array(
         [
             [-1, -1, -1],
@@ -295,8 +299,9 @@ def first_energy(nodes, solids):
                     for d in range(3)
                 ]
             )
-            total += abs(np.linalg.det(dn @ x))
-    return 0.5 * DENSITY * total
+            for n in s[1:]:
+                found[n] = found.get(n, 0.0) + DENSITY * abs(np.linalg.det(dn @ x)) / 8.0
+    return found
 
 
 def show(scene, program, step, err, energy, penetration, cpu):

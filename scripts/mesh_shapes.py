@@ -82,14 +82,6 @@ def all_of_side(kind, side):
     return list(side) + [of.corners + k for k in between]
 
 
-def outline(kind, side):
-    """The corners of a side of a quadratic solid, after each the node between it and the next."""
-    of = SHAPES[kind]
-    between = {frozenset(m): of.corners + k for k, m in enumerate(of.middles)}
-    pairs = zip(side, side[1:] + side[:1])
-    return [n for a, b in pairs for n in (a, between[frozenset((a, b))])]
-
-
 def turned_over(kind):
     """The nodes of the element in the order that turns it inside out."""
     of = SHAPES[kind]

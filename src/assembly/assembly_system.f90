@@ -211,7 +211,7 @@ contains
         matrix%value(d, d, k) = matrix%value(d, d, k) + c_m*system%mass(k)
       end do
     end do
-    if (allocated(system%idle)) call fill_idle(system, matrix)
+    call fill_idle(system, matrix)
     if (.not. system%any_fixed) return
     do i = 1, system%n
       do k = system%graph%first(i), system%graph%first(i + 1) - 1
@@ -227,17 +227,20 @@ contains
     end do
   end subroutine effective_matrix
 
-  !> Ones on the diagonal of nodes that follow, and of held dofs without an entry: no zero
-  !> pivot, and no motion where there is no force.
+  !> Ones on the diagonal of nodes that follow, and of held dofs without an entry (of rigid
+  !> meshes in statics): no zero pivot, and no motion where there is no force.
   pure subroutine fill_idle(system, matrix)
     type(system_t), intent(in) :: system
     type(block_matrix_t), intent(inout) :: matrix
     integer :: k, d
-    do k = 1, size(system%idle)
-      do d = 1, system%dim
-        call set_one(system, d, system%idle(k), matrix)
+    if (allocated(system%idle)) then
+      do k = 1, size(system%idle)
+        do d = 1, system%dim
+          call set_one(system, d, system%idle(k), matrix)
+        end do
       end do
-    end do
+    end if
+    if (.not. system%any_fixed) return
     do k = 1, size(system%fixed_list, 2)
       call set_one(system, system%fixed_list(1, k), system%fixed_list(2, k), matrix)
     end do
@@ -289,7 +292,7 @@ contains
       matrix%diagonal(:, i) = c_m*system%lumped(i)
     end do
     matrix%diagonal(:, system%massless_body) = one
-    if (allocated(system%idle)) call fill_idle(system, matrix)
+    call fill_idle(system, matrix)
   end subroutine diagonal_matrix
 
   pure subroutine clear_block(row, column, diagonal, block)

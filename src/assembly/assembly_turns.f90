@@ -45,28 +45,28 @@ contains
     real(wp), intent(out) :: angle
     integer, intent(out) :: element
     real(wp) :: d(2), e(2), sine, cosine, size_d, size_e
-    integer :: k
+    integer :: b, k
     angle = zero
     element = 0
-    do k = 1, size(system%block_of)
-      associate (block => system%block(system%block_of(k)))
-        if (block%is_rigid) cycle    ! turns as it will
-        associate (node => block%node(:, k - block%first + 1))
-          d = x(:, node(3)) - x(:, node(1))
-          e = d + (u(:, node(3)) - u(:, node(1)))
-        end associate
+    do b = 1, size(system%block)
+      associate (node => system%block(b)%node)
+        if (system%block(b)%is_rigid) cycle    ! turns as it will
+        do k = 1, size(node, 2)
+          d = x(:, node(3, k)) - x(:, node(1, k))
+          e = d + (u(:, node(3, k)) - u(:, node(1, k)))
+          ! Unit sizes first: the products of an unbounded motion would overflow.
+          size_d = maxval(abs(d))
+          size_e = maxval(abs(e))
+          if (.not. size_e > zero) cycle
+          d = d/size_d
+          e = e/size_e
+          sine = d(1)*e(2) - d(2)*e(1)
+          cosine = d(1)*e(1) + d(2)*e(2)
+          if (abs(sine) <= angle*cosine) cycle
+          angle = abs(sine)/max(cosine, tiny(cosine))
+          element = system%block(b)%first + k - 1
+        end do
       end associate
-      ! Unit sizes first: the products of an unbounded motion would overflow.
-      size_d = maxval(abs(d))
-      size_e = maxval(abs(e))
-      if (.not. size_e > zero) cycle
-      d = d/size_d
-      e = e/size_e
-      sine = d(1)*e(2) - d(2)*e(1)
-      cosine = d(1)*e(1) + d(2)*e(2)
-      if (abs(sine) <= angle*cosine) cycle
-      angle = abs(sine)/max(cosine, tiny(cosine))
-      element = k
     end do
     angle = atan(angle)
   end subroutine rotation_in_plane

@@ -89,7 +89,8 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole, work_of, demand_memory, check_graph, check_matrix, check_vectors
+  public :: solve_whole, work_of, inverse_bytes, demand_memory, check_graph, check_matrix, &
+      check_vectors
 
 contains
 
@@ -129,18 +130,27 @@ contains
     work_of = 2.0e-9_wp*solver%d**3*real(solver%info%multiplications, wp)
   end function work_of
 
-  !> Before anything is allocated: does the factor, of factor_bytes, fit into the memory of the
-  !> machine? Fails where it does not.
+  !> Bytes of the inverse of the contact block, which stands beside the factor. The block
+  !> itself, of the same size, is part of factor_bytes.
+  pure integer(i8) function inverse_bytes(solver)
+    class(solver_t), intent(in) :: solver
+    inverse_bytes = 8_i8*(solver%d*int(solver%n_interface, i8))**2
+  end function inverse_bytes
+
+  !> Before anything is allocated: do the factor, of factor_bytes, and the inverse of the
+  !> contact block fit into the memory of the machine? Fails where they do not.
   subroutine demand_memory(solver, status)
     class(solver_t), intent(in) :: solver
     type(status_t), intent(inout) :: status
     integer(i8), parameter :: small = 100000000_i8
-    integer(i8) :: there
-    if (solver%info%factor_bytes < small) return    ! not worth asking the system
+    integer(i8) :: needed, there
+    needed = solver%info%factor_bytes + inverse_bytes(solver)
+    if (needed < small) return    ! not worth asking the system
     there = machine_memory()
-    if (solver%info%factor_bytes < there) return
+    if (needed < there) return
     call fail(status, status_file, 'the factor of the matrix needs '// &
-        to_text(solver%info%factor_bytes/1000000_i8)//' MB ('//to_text(work_of(solver))// &
+        to_text(needed/1000000_i8)//' MB with the inverse of its '// &
+        to_text(solver%d*solver%n_interface)//' contact dofs ('//to_text(work_of(solver))// &
         ' Gflop); the machine has '//to_text(there/1000000_i8)//' MB', &
         hint='an explicit scheme factors nothing; fewer contact nodes or a coarser mesh '// &
         'need less')

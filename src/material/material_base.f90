@@ -12,10 +12,16 @@ module material_base
     integer :: id = 0
     real(wp) :: density = 0.0_wp   !< [M/L3]
     logical :: is_rigid = .false.
+    logical :: is_linear = .true.      !< takes part in decks of small displacements
+    logical :: is_finite = .false.     !< has a law at finite strain, RESPOND
+    logical :: is_quadratic = .false.  !< its energy is a quadratic form of Green's strain
+    logical :: mean_dilatation = .false.   !< nearly incompressible, or flows without volume
+    integer :: states = 0              !< history variables of a point
   contains
     procedure(moduli_i), deferred :: moduli
     procedure(speed_i), deferred :: wave_speed
     procedure(across_i), deferred :: out_of_plane_stress
+    procedure :: respond => no_response
   end type material_t
 
   !> A material in a list of materials of several kinds.
@@ -48,5 +54,23 @@ module material_base
       real(wp) :: szz
     end function across_i
   end interface
+
+contains
+
+  !> The law at finite strain, in space: from Green's strain e = (E11, E22, E33, 2 E12, 2 E23, 2
+  !> E31) and the history of the last accepted step, old (states): second Piola-Kirchhoff stress
+  !> s = (S11, S22, S33, S12, S23, S31) [F/L2], moduli d = ds/de (6, 6) [F/L2] where they are
+  !> asked for, strain energy per reference volume [F/L2], and the history new. NaN where the
+  !> law has no value (det C <= 0). Laws with is_finite have their own.
+  pure subroutine no_response(this, e, old, with_moduli, s, d, energy, new)
+    class(material_t), intent(in) :: this
+    real(wp), intent(in) :: e(6), old(:)
+    logical, intent(in) :: with_moduli
+    real(wp), intent(out) :: s(6), d(6, 6), energy, new(:)
+    s = 0.0_wp
+    d = 0.0_wp
+    energy = 0.0_wp
+    new = old
+  end subroutine no_response
 
 end module material_base

@@ -13,6 +13,7 @@ module material_elastic
     procedure :: moduli => elastic_moduli
     procedure :: wave_speed => elastic_wave_speed
     procedure :: out_of_plane_stress => elastic_stress_across
+    procedure :: respond => elastic_response
   end type elastic_t
 
 contains
@@ -66,5 +67,21 @@ contains
     szz = zero
     if (plane /= plane_stress) szz = this%poisson*(stress(1) + stress(2))
   end function elastic_stress_across
+
+  !> St Venant and Kirchhoff: W = lambda/2 (tr E)^2 + G E:E, S = lambda tr E I + 2 G E.
+  pure subroutine elastic_response(this, e, old, with_moduli, s, d, energy, new)
+    class(elastic_t), intent(in) :: this
+    real(wp), intent(in) :: e(6), old(:)
+    logical, intent(in) :: with_moduli
+    real(wp), intent(out) :: s(6), d(6, 6), energy, new(:)
+    real(wp) :: shear, pressure
+    shear = half*this%young/(one + this%poisson)
+    pressure = two*shear*this%poisson/(one - two*this%poisson)*(e(1) + e(2) + e(3))
+    s(:3) = two*shear*e(:3) + pressure
+    s(4:) = shear*e(4:)
+    energy = half*dot_product(s, e)
+    new = old
+    if (with_moduli) d = this%moduli(in_space)
+  end subroutine elastic_response
 
 end module material_elastic

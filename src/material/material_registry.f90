@@ -25,7 +25,7 @@ contains
     select case (keyword)
     case ('MAT_ELASTIC')
       allocate (material, source=elastic_t(id=id, density=constants(1), young=constants(2), &
-          poisson=constants(3)))
+          poisson=constants(3), is_finite=.true., is_quadratic=.true.))
     case ('MAT_RIGID')
       allocate (material, source=rigid_material_t(id=id, density=constants(1), &
           is_rigid=.true.))

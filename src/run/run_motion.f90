@@ -77,11 +77,14 @@ contains
     call constrain(run%system, is_held)
   end subroutine hold_active
 
+  !> Does a motion act in the step of length h that ends at t1? In the step of no length, which
+  !> brings the loads of the start of statics, one that begins then does.
   pure logical function acts(motion, t1, h)
     type(motion_t), intent(in) :: motion
     real(wp), intent(in) :: t1, h
     real(wp), parameter :: slack = 1.0e-9_wp
-    acts = t1 > motion%birth + slack*h .and. t1 <= motion%death + slack*h
+    acts = t1 > motion%birth + slack*h .or. (t1 >= motion%birth .and. .not. h > zero)
+    acts = acts .and. t1 <= motion%death + slack*h
   end function acts
 
   !> b = b - A x_given on free dofs; on held ones what makes the solver give x_given.

@@ -17,7 +17,7 @@ module run_operator
   use run_rigid, only: link_interface, keep_flexibility
   implicit none
   private
-  public :: make_operators, change_operators, factor_matrix, use_operator
+  public :: make_operators, change_operators, factor_matrix, size_factor, use_operator
 
 contains
 
@@ -116,22 +116,10 @@ contains
     type(run_t), intent(inout) :: run
     logical, intent(in) :: again
     type(status_t), intent(inout) :: status
-    integer :: d, m, stage, in_use
+    integer :: stage, in_use
     if (failed(status)) return
     call run%timers%enter(phase_factor)
-    m = size(run%contact%interface_node)
-    d = run%system%dim
-    if (again) then
-      if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
-      allocate (run%force(d, m))
-      if (allocated(run%rigid)) call link_interface(run)
-      associate (kept => size(kept_nodes(run)))
-        allocate (run%b_interface(d, kept), run%x_interface(d, kept))
-      end associate
-      if (d*m > run%solver_options%block_limit) &
-          call add_message(run%notes, '', 'the contact interface has '//to_text(d*m)// &
-          ' dofs, more than NLAST; it is kept dense all the same')
-    end if
+    if (again) call size_interface(run)
     in_use = run%stage_in_use
     do stage = 1, size(run%scheme%stage)
       if (allocated(run%other)) call use_operator(run, stage)
@@ -140,6 +128,32 @@ contains
     end do
     if (allocated(run%other)) call use_operator(run, in_use)
   end subroutine factor_matrix
+
+  !> Vectors of the interface nodes.
+  subroutine size_interface(run)
+    type(run_t), intent(inout) :: run
+    integer :: d, m
+    m = size(run%contact%interface_node)
+    d = run%system%dim
+    if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
+    allocate (run%force(d, m))
+    if (allocated(run%rigid)) call link_interface(run)
+    associate (kept => size(kept_nodes(run)))
+      allocate (run%b_interface(d, kept), run%x_interface(d, kept))
+    end associate
+    if (d*m > run%solver_options%block_limit) &
+        call add_message(run%notes, '', 'the contact interface has '//to_text(d*m)// &
+        ' dofs, more than NLAST; it is kept dense all the same')
+  end subroutine size_interface
+
+  !> What the factor of the first stage will need, without its numbers: run%solver%info.
+  subroutine size_factor(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    if (failed(status)) return
+    call size_interface(run)
+    call analyse_matrix(run, status)
+  end subroutine size_factor
 
   subroutine factor_stage(run, number, again, status)
     type(run_t), intent(inout) :: run

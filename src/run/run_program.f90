@@ -23,10 +23,10 @@ module run_program
   use run_data, only: run_t
   use run_frames, only: start_frames, end_segment, remove_segments
   use run_loop, only: go_through_steps
-  use run_report, only: open_log, close_log, write_plan
+  use run_report, only: open_log, close_log, write_plan, write_solver
   use run_restart, only: start_restarts, remove_restarts
   use run_resume, only: resume
-  use run_setup, only: read_scene, set_up
+  use run_setup, only: read_scene, set_up, size_solver
   use run_summary, only: totals_t, find_totals, ending_of, write_run_summary, remove_run_summary
   use run_warnings, only: show_warnings, write_kinds
   implicit none
@@ -107,8 +107,11 @@ contains
     end do
     if (failed(status)) return
     call show_warnings(run%warnings)
+    if (arguments%plan) call size_solver(run, status)
     if (arguments%plan .or. arguments%check) then
       call tell_scene(arguments, run)
+      if (arguments%plan .and. .not. (run%quiet .or. failed(status))) &
+          call write_solver(run%solver, output_unit)
       return
     end if
     call set_up(run, status)

@@ -13,14 +13,14 @@ module run_report
   use contact_types, only: contact_t
   use deck_echo, only: write_echo
   use deck_names, only: step_fixed
-  use linalg_solver, only: work_of
+  use linalg_solver, only: solver_t, work_of, inverse_bytes
   use run_data, only: run_t
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
   use run_warnings, only: collect_messages, show_warnings, write_messages, write_kinds
   implicit none
   private
-  public :: open_log, close_log, write_plan
+  public :: open_log, close_log, write_plan, write_solver
 
 contains
 
@@ -40,11 +40,21 @@ contains
     if (allocated(run%restarted)) write (run%log_unit, '(a)') 'restarted from '// &
         run%restarted//', step '//to_text(run%state%cycle)//', time '// &
         to_text(run%state%time)
-    write (run%log_unit, '(a)') 'solver '//run%solver%info%engine//', order '// &
-        run%solver%info%order//', factor '//to_text(run%solver%info%factor_bytes)// &
-        ' bytes, '//to_text(run%solver%info%multiplications)//' block multiplications ('// &
-        to_text(work_of(run%solver))//' Gflop)'
+    call write_solver(run%solver, run%log_unit)
   end subroutine open_log
+
+  !> What a factor costs, and where there are contact dofs their part of it.
+  subroutine write_solver(solver, unit)
+    class(solver_t), intent(in) :: solver
+    integer, intent(in) :: unit
+    write (unit, '(a)') 'solver '//solver%info%engine//', order '//solver%info%order// &
+        ', factor '//to_text(solver%info%factor_bytes)//' bytes, '// &
+        to_text(solver%info%multiplications)//' block multiplications ('// &
+        to_text(work_of(solver))//' Gflop)'
+    if (solver%n_interface == 0) return
+    write (unit, '(a)') 'of it for '//to_text(solver%d*solver%n_interface)//' contact dofs '// &
+        to_text(inverse_bytes(solver))//' bytes, beside it their inverse of as many'
+  end subroutine write_solver
 
   !> deck.echo.k: the deck as understood. Where its hash was taken it is there already.
   subroutine keep_echo(run, status)

@@ -22,7 +22,7 @@ module run_setup
   use run_damping, only: make_damping, start_damping, update_damping
   use run_data, only: run_t
   use run_motion, only: make_motions, start_reactions
-  use run_operator, only: factor_matrix, make_operators, change_operators
+  use run_operator, only: factor_matrix, size_factor, make_operators, change_operators
   use run_plan, only: make_plan, add_feature
   use run_rigid, only: make_rigid
   use run_static, only: make_shift
@@ -31,7 +31,7 @@ module run_setup
   use time_registry, only: make_scheme
   implicit none
   private
-  public :: read_scene, set_up, start_dynamics
+  public :: read_scene, set_up, size_solver, start_dynamics
 
   !> About a Courant number of 10.
   real(wp), parameter :: refinement_ratio = 200.0_wp
@@ -61,6 +61,25 @@ contains
   !> Makes everything that the plan needs; what has failed is the last thing made. Nothing is
   !> written.
   subroutine set_up(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call prepare(run, status)
+    call factor_matrix(run, .true., status)
+    if (failed(status)) return
+    call plan_refinement(run)
+    call run%timers%enter(phase_other)
+  end subroutine set_up
+
+  !> What the factor of a scene that has been read will need: run%solver%info.
+  subroutine size_solver(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call prepare(run, status)
+    call size_factor(run, status)
+  end subroutine size_solver
+
+  !> All that comes before the first factor.
+  subroutine prepare(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     integer, allocatable :: massless(:)
@@ -126,12 +145,7 @@ contains
       run%load_0 = zero
     end if
     if (run%plan%contact) call first_lists(run, status)
-    if (failed(status)) return
-    call factor_matrix(run, .true., status)
-    if (failed(status)) return
-    call plan_refinement(run)
-    call run%timers%enter(phase_other)
-  end subroutine set_up
+  end subroutine prepare
 
   !> A note of nodes that were moved onto obstacles; fails where that has spoilt an element.
   subroutine tell_moved(run, status)

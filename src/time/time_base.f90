@@ -159,22 +159,57 @@ contains
   pure real(wp) function mass_product(system, x, y)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: x(:, :), y(:, :)
-    real(wp) :: row(3)
-    integer :: d, i, k
+    real(wp) :: row_2(2), row_3(3)
+    integer :: i
     mass_product = zero
-    do i = 1, system%n
-      if (system%mass_is_diagonal) then
-        row(:system%dim) = system%lumped(i)*y(:, i)
-      else
-        row = zero
-        do k = system%graph%first(i), system%graph%first(i + 1) - 1
-          row(:system%dim) = row(:system%dim) + system%mass(k)*y(:, system%graph%column(k))
-        end do
-      end if
-      do d = 1, system%dim
-        mass_product = mass_product + x(d, i)*row(d)
+    if (system%dim == 2) then
+      do i = 1, system%n
+        row_2 = mass_row_2(system, i, y)
+        mass_product = mass_product + x(1, i)*row_2(1)
+        mass_product = mass_product + x(2, i)*row_2(2)
       end do
-    end do
+    else
+      do i = 1, system%n
+        row_3 = mass_row_3(system, i, y)
+        mass_product = mass_product + x(1, i)*row_3(1)
+        mass_product = mass_product + x(2, i)*row_3(2)
+        mass_product = mass_product + x(3, i)*row_3(3)
+      end do
+    end if
   end function mass_product
+
+  !> (M y)_i in the plane: a size that the compiler knows saves a third of the work.
+  pure function mass_row_2(system, i, y) result(row)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: i
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: row(2)
+    integer :: k
+    if (system%mass_is_diagonal) then
+      row = system%lumped(i)*y(:, i)
+      return
+    end if
+    row = zero
+    do k = system%graph%first(i), system%graph%first(i + 1) - 1
+      row = row + system%mass(k)*y(:, system%graph%column(k))
+    end do
+  end function mass_row_2
+
+  !> (M y)_i in space.
+  pure function mass_row_3(system, i, y) result(row)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: i
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: row(3)
+    integer :: k
+    if (system%mass_is_diagonal) then
+      row = system%lumped(i)*y(:, i)
+      return
+    end if
+    row = zero
+    do k = system%graph%first(i), system%graph%first(i + 1) - 1
+      row = row + system%mass(k)*y(:, system%graph%column(k))
+    end do
+  end function mass_row_3
 
 end module time_base

@@ -414,6 +414,15 @@ def commands():
         code, errors, out = scenes.bipact(plain, other, option)
         check(code == 0 and not os.path.exists(other), option + " writes no file")
         check("friction    off" in out, option + " shows the plan")
+    needs = [line for line in out.splitlines() if line.startswith(("solver ", "of it "))]
+    dofs = re.findall(r"of it for (\d+) contact dofs (\d+) bytes", "".join(needs))
+    check(
+        len(needs) == 2 and int(dofs[0][1]) == 8 * int(dofs[0][0]) ** 2,
+        "--plan says what the factor and the contact dofs need: %s" % needs,
+    )
+    with open(os.path.join(folder, "bipact.log"), encoding="utf-8") as file:
+        log = file.read()
+    check("\n".join(needs) in log, "--plan says what the run needs")
     code, errors, _ = scenes.bipact(
         plain, os.path.join(scenes.TMP, "v2"), "--quiet", "-D", "v0=2.0"
     )

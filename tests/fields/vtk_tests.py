@@ -27,6 +27,9 @@ import fields
 import solids
 
 try:
+    import matplotlib.pyplot as plt
+    import plot_fields
+    import plot_space
     import pyvista
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
@@ -225,9 +228,48 @@ def in_space():
     # they faced outward, and the same file has volumes below 0 there.
     if vtk.vtkVersion().GetVTKMajorVersion() * 100 + vtk.vtkVersion().GetVTKMinorVersion() < 907:
         volume = np.where([len(c) == 6 for c in run.cells], -volume, volume)
+        # It takes no account of quadratic hexahedra.
+        volume[run.types == 29] = quadratic_volumes(sizes.GetOutput(), run)
     check(volume.min() > 0.0, "solids: volumes are positive")
     # Planes cut the warped faces of cells differently from both sides: not exact in sum.
     within(volume.sum() / (4.0 * number), 0.98, 1.02, "solids: their volume by VTK")
+    pictures(folder)
+
+
+def quadratic_volumes(grid, run):
+    """Volumes of the hexahedra with 27 nodes, by VTK's shape functions at 3 x 3 x 3 points."""
+    at = np.array([-1.0, 0.0, 1.0]) * np.sqrt(0.6) / 2.0 + 0.5
+    weight = np.array([5.0, 8.0, 5.0]) / 18.0
+    found = []
+    for e in np.flatnonzero(run.types == 29):
+        cell, total = grid.GetCell(e), 0.0
+        x = np.array([cell.GetPoints().GetPoint(k) for k in range(27)])
+        for i, j, k in np.ndindex(3, 3, 3):
+            slopes = [0.0] * 81
+            cell.InterpolateDerivs([at[i], at[j], at[k]], slopes)
+            jacobian = np.reshape(slopes, (3, 27)) @ x
+            total += weight[i] * weight[j] * weight[k] * np.linalg.det(jacobian)
+        found.append(total)
+    return found
+
+
+def pictures(folder):
+    """Solids of every shape, drawn by PyVista and by Matplotlib: pixels that are not the white of
+    the ground have the hues of the parts."""
+    picture = plot_fields.Picture(folder, "PART")
+    frames = [0, len(picture.run.times) - 1]
+    with_pyvista = plot_space.Scene(picture, 1.0, frames)
+    check(with_pyvista.painter is not None, "PyVista draws here")
+    image = with_pyvista.painter.image(frames[1], with_pyvista.colours(frames[1]), (400, 300))
+    # The surfaces alone cover more; grey are the frame and its names.
+    hue = np.ptp(image[:, :, :3].astype(int), axis=2)
+    check((hue > 40).mean() > 0.02, "PyVista: faces cover %.3f" % (hue > 40).mean())
+    path = os.path.join(folder, "plain.png")
+    plot_space.painters = lambda: None
+    plot_space.snapshots(picture, path, 1.0, "solids")
+    image = plt.imread(path)[:, :, :3]
+    hue = np.ptp(image, axis=2) * 255.0
+    check((hue > 40).mean() > 0.02, "Matplotlib: faces cover %.3f" % (hue > 40).mean())
 
 
 def pyvista_large():
