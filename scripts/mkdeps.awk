@@ -9,7 +9,7 @@
 
 BEGIN {
   # Lowest first. A layer may use itself and all lower ones, unless `only` or `never` says less.
-  n = split("base linalg cone hdf5 fclib deck material element model scene contact assembly time output run" \
+  n = split("base linalg cone hdf5 fclib deck material element solid model scene contact assembly time output run" \
             " store", \
             order, " ")
   for (i = 1; i <= n; i++) rank[order[i]] = i

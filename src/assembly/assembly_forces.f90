@@ -6,8 +6,10 @@ module assembly_forces
   use base_kinds, only: wp, zero, one, half
   use element_base, only: most_nodes
   use assembly_blocks, only: element_block_t
+  use assembly_solid, only: subtract_solid_force, add_solid_energy
   use assembly_system, only: system_t
   use model_data, only: model_t, curve_value
+  use solid_block, only: force_rule_t
   implicit none
   private
   public :: subtract_internal_force, subtract_layer_force, subtract_element_forces, &
@@ -16,13 +18,19 @@ module assembly_forces
 
 contains
 
-  !> f = f - factor * K u, element by element; u, f (dim, n).
+  !> f = f - factor * K u, element by element; u, f (dim, n). At finite deformation the force at
+  !> the displacements u takes the place of K u.
   subroutine subtract_internal_force(system, factor, u, f)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
     integer :: b
+    if (allocated(system%solid)) then
+      call subtract_solid_force(system%solid, force_rule_t(before=one, now=zero), factor, u, &
+          u, f)
+      return
+    end if
     do b = 1, size(system%block)
       if (system%block(b)%is_rigid) cycle
       call subtract_block(system, system%block(b), 1, size(system%block(b)%node, 2), factor, &
@@ -160,17 +168,22 @@ contains
     energy = zero
     do b = 1, size(system%block)
       associate (own => energy(part(system%block(b)%first)))
+        if (allocated(system%solid)) then
+          call add_solid_energy(system%solid(b), u, own)
+          cycle
+        end if
         call add_products(system, system%block(b), half, u, own)
       end associate
     end do
   end subroutine strain_energies
 
-  !> u.K u over all elements [F L].
+  !> u.K u over all elements [F L]; 0 at finite deformation, which has no K.
   pure real(wp) function strain_product(system, u)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: u(:, :)
     integer :: b
     strain_product = zero
+    if (allocated(system%solid)) return
     do b = 1, size(system%block)
       call add_products(system, system%block(b), one, u, strain_product)
     end do

@@ -8,9 +8,11 @@ module assembly_system
   use assembly_blocks, only: element_block_t, make_blocks, assemble_stiffness, &
       whole_stiffness, largest_stiffness
   use assembly_mass, only: assemble_mass, redistribution_targets
+  use assembly_solid, only: make_solids, add_solid_tangents
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
       scalar_products, scalar_rows
   use model_data, only: model_t
+  use solid_block, only: solid_t, force_rule_t
   implicit none
   private
 
@@ -37,6 +39,8 @@ module assembly_system
     integer, allocatable :: block_of(:)       !< (elements)
     integer, allocatable :: massless_layer(:)  !< elements with a massless node
     type(damping_t), allocatable :: damping    !< only where the deck has it
+    type(solid_t), allocatable :: solid(:)     !< of the blocks, only at finite deformation
+    type(force_rule_t) :: force_rule           !< their force over a step
     integer, allocatable :: massless_body(:)   !< nodes without mass and element, all held
     !> Nodes without mass and stiffness: those that follow rigid parts; only with these
     integer, allocatable :: idle(:)
@@ -78,8 +82,13 @@ contains
         [(one, k=1, size(model%part))], system%mass)
     call add_bodies(model, system)
     call row_sums(system)
-    call assemble_stiffness(model, system%block)
-    call find_layer(model, massless, system)
+    if (model%controls%is_finite) then
+      call make_solids(model, system%block, system%solid)
+      allocate (system%massless_layer(0))
+    else
+      call assemble_stiffness(model, system%block)
+      call find_layer(model, massless, system)
+    end if
     if (allocated(model%mass_damping) .or. allocated(model%stiffness_damping)) &
         call make_damping(model, first, target, system)
     call constrain(system, model%fixed)
@@ -186,15 +195,18 @@ contains
   !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their
   !> diagonal only (1 where they have no mass), so that a right-hand side of zero there gives a
   !> displacement of zero.
-  subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix)
+  subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix, u0, x)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_c, c_layer, c_k
     type(block_matrix_t), intent(inout) :: matrix
+    real(wp), intent(in), optional :: u0(:, :), x(:, :)
     integer :: e, i, k, d
     if (.not. allocated(matrix%value)) allocate (matrix%value(system%dim, system%dim, &
         size(system%graph%column)))
     matrix%value = zero
-    if (abs(c_k) > zero) then
+    if (present(u0)) then
+      call add_solid_tangents(system%solid, system%force_rule, u0, x, system%graph, matrix)
+    else if (abs(c_k) > zero) then
       do e = 1, size(system%block_of)
         call add_stiffness(system, e, c_k, matrix)
       end do

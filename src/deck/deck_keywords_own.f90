@@ -3,7 +3,7 @@
 module deck_keywords_own
   use cone_types, only: deck_solver_names, local_names
   use deck_names, only: table_keywords, table_timing, field_names, mass_names, step_modes, &
-      overlaps, choices
+      overlaps, force_names, choices
   use deck_schemes, only: schemes
   use deck_table, only: table_t, add_keyword, add_card, add_field
   use linalg_order, only: order_names
@@ -40,6 +40,12 @@ contains
     call add_field(table, 'SHIFT', 'R10 =1.0E-3 >0 <=1', 'of the passes, / (c/L)^2 M')
     call add_field(table, 'MAXPASS', 'I10 =60 >0', 'most passes of a load step')
     call add_field(table, 'RES', 'R10 =1.0E-10 >0 <=0.01', 'residual force / sum of the loads')
+    call add_keyword(table, 'BIPACT_KINEMATICS', 'finite deformation (NSOLVR 12)', &
+        required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'FORCE', 'W10 '//choices(force_names), &
+        'internal force of a step of THETA; blank = EMC')
+    call add_field(table, 'LAW', 'W10 |SVK|', 'of *MAT_ELASTIC; blank = SVK')
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'TYPE', 'W10 =CONSISTENT '//choices(mass_names), 'mass matrix')

@@ -35,6 +35,10 @@ module deck_names
   character(10), parameter, public :: mass_names(3) = [character(10) :: 'CONSISTENT', &
       'LUMPED', 'DISPERSION']
 
+  !> Internal force of a step at finite deformation.
+  character(8), parameter, public :: force_names(3) = [character(8) :: 'EMC', 'PAPER', &
+      'MIDPOINT']
+
   public :: choices
 
 contains

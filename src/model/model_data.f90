@@ -196,6 +196,8 @@ module model_data
     integer :: step_mode = step_fixed   !< step_... of deck_names
     real(wp) :: shortest_step = 0.0_wp  !< of HALVE [T]
     integer :: most_halvings = 10       !< of DT0
+    logical :: is_finite = .false.      !< finite deformation: NSOLVR 12
+    integer :: force = 0                !< FORCE of *BIPACT_KINEMATICS, force_... of solid_block
     integer :: ledger_every = 0
     integer :: dump_first = 0, dump_last = 0, dump_every = 1  !< steps; 0 = no dump
     real(wp) :: growth = 1.0e-9_wp

@@ -119,6 +119,19 @@ module run_data
     logical :: new_interface = .false.   !< the refused step had another interface
   end type step_control_t
 
+  !> Newton's method in a step of finite deformation (run_newton).
+  type, public :: newton_t
+    real(wp), allocatable :: d(:, :)         !< (dim, n) correction of x [L]
+    !> (dim, n) what is left of the balance at x but for contact, before held dofs are cleared [F]
+    real(wp), allocatable :: residual(:, :)
+    real(wp) :: work = zero                  !< of the internal force in the step [F L]
+    real(wp) :: energy = zero                !< strain energy at the end of the last step [F L]
+    integer :: most_passes = 30
+    real(wp) :: motion_tolerance = 1.0e-11_wp, force_tolerance = 1.0e-8_wp
+    integer :: passes = 0, steps = 0         !< of the run so far
+    integer :: worst = 0                     !< most passes of a step
+  end type newton_t
+
   type, public :: run_t
     type(deck_t) :: deck
     type(model_t) :: model
@@ -147,6 +160,7 @@ module run_data
     real(wp), allocatable :: force(:, :)                   !< (dim, m) H' r
     ! (dim, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)
+    type(newton_t), allocatable :: newton      !< only at finite deformation
     ! Only with prescribed motions or a table of reactions
     logical, allocatable :: active_motion(:)
     type(part_t) :: motion_part            !< columns of A at nodes that are moved at some time

@@ -25,6 +25,7 @@ module run_loop
   use run_restart, only: keep_restart, how_to_go_on
   use run_operator, only: factor_matrix, use_operator
   use run_setup, only: start_dynamics
+  use run_newton, only: solve_newton, close_newton
   use run_rigid, only: begin_rigid, renew_levers, carry, set_true_motion, add_rigid_works
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
@@ -209,12 +210,20 @@ contains
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
     logical :: again
-    call solve_stage(run, stage, t1, acting, status)
+    if (allocated(run%newton)) then
+      call solve_newton(run, stage, t1, acting, status)
+    else
+      call solve_stage(run, stage, t1, acting, status)
+    end if
     call check_finite(run, stage, status)
     if (.not. run%plan%contact) return
     call look_back(run, stage, again, status)
     if (.not. again) return
-    call solve_stage(run, stage, t1, acting, status)
+    if (allocated(run%newton)) then
+      call solve_newton(run, stage, t1, acting, status)
+    else
+      call solve_stage(run, stage, t1, acting, status)
+    end if
     call check_finite(run, stage, status)
   end subroutine solve_listed
 
@@ -330,6 +339,7 @@ contains
       call unbalanced_work(run, work)
       run%ledger%contact%unsolved = run%ledger%contact%unsolved + work
     end if
+    if (allocated(run%newton)) call close_newton(run)
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
         + run%scheme%dissipation(run%system, run%state)
     if (.not. run%plan%contact) return
@@ -459,17 +469,9 @@ contains
   subroutine monitor(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    real(wp) :: angle
-    integer :: element
     call run%timers%enter(phase_energy)
     call evaluate_ledger(run%model, run%system, run%state, run%ledger)
-    call largest_rotation(run%model, run%system, run%state%u, angle, element)
-    if (angle*180.0_wp/acos(-one) > run%model%controls%rotation_warning) &
-        run%rotations = run%rotations + 1
-    if (angle > run%rotation) then
-      run%rotation = angle
-      run%rotation_element = element
-    end if
+    if (.not. allocated(run%newton)) call watch_rotation(run)
     if (run%state%cycle > 0) call watch_energy(run, status)
     if (run%model%controls%end_ratio > zero) then
       if (abs(run%ledger%ratio - one) > run%model%controls%end_ratio) call fail(status, &
@@ -481,5 +483,18 @@ contains
         'the energy is not finite (NaN or Inf)', place=moment(run))
     call run%timers%enter(phase_other)
   end subroutine monitor
+
+  !> Small displacements are no rotations: the largest one, and how often it was too large.
+  subroutine watch_rotation(run)
+    type(run_t), intent(inout) :: run
+    real(wp) :: angle
+    integer :: element
+    call largest_rotation(run%model, run%system, run%state%u, angle, element)
+    if (angle*180.0_wp/acos(-one) > run%model%controls%rotation_warning) &
+        run%rotations = run%rotations + 1
+    if (.not. angle > run%rotation) return
+    run%rotation = angle
+    run%rotation_element = element
+  end subroutine watch_rotation
 
 end module run_loop

@@ -164,6 +164,9 @@ contains
     associate (stage => run%scheme%stage(number))
       if (run%solver%takes_diagonal) then
         call diagonal_matrix(run%system, stage%c_m, run%matrix)
+      else if (allocated(run%newton)) then
+        call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
+            run%matrix, run%state%u, run%x)
       else
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
             run%matrix)

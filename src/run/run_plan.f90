@@ -4,8 +4,8 @@
 module run_plan
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
-  use deck_names, only: table_names, table_count, table_glstat, table_matsum, table_nodout, &
-      table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
+  use deck_names, only: force_names, table_names, table_count, table_glstat, table_matsum, &
+      table_nodout, table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
       table_timing, table_rbdout, step_halve, step_event
   use model_data, only: model_t, count_steps
   use run_data, only: plan_t
@@ -35,8 +35,13 @@ contains
     call add_feature(plan, 'damping', plan%damping, damping_reason(model))
     call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
         merge('1', '0', model%controls%redistribute))
-    call add_feature(plan, 'kinematics', .false., &
-        'small displacements: one stiffness, factored once')
+    if (model%controls%is_finite) then
+      call add_feature(plan, 'kinematics', .true., "finite deformation, Newton's method, "// &
+          'force of the step '//trim(force_names(model%controls%force)))
+    else
+      call add_feature(plan, 'kinematics', .false., &
+          'small displacements: one stiffness, factored once')
+    end if
     if (allocated(model%rigid)) call add_feature(plan, 'rigid parts', .true., &
         to_text(size(model%rigid%part))//', finite rotations')
     call plan_tables(model, plan)

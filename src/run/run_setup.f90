@@ -21,6 +21,7 @@ module run_setup
   use model_state, only: make_state
   use run_damping, only: make_damping, start_damping, update_damping
   use run_data, only: run_t
+  use run_newton, only: make_newton
   use run_motion, only: make_motions, start_reactions
   use run_operator, only: factor_matrix, size_factor, make_operators, change_operators
   use run_plan, only: make_plan, add_feature
@@ -108,6 +109,7 @@ contains
     run%step%last_step = run%plan%last_step
     call make_scheme(run%model%controls, run%static_steps > 0, run%scheme, status)
     if (failed(status)) return
+    if (run%model%controls%is_finite) call make_newton(run)
     if (run%static_steps > 0) call make_shift(run%model, run%system, run%shift, &
         run%model%controls%static_shift)
     if (allocated(run%shift)) then
@@ -128,7 +130,7 @@ contains
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     run%ledger%staggered = run%scheme%staggered
-    if (run%model%dim == 2) then
+    if (run%model%dim == 2 .and. .not. allocated(run%newton)) then
       allocate (run%bending)
       call make_bending(run%model, run%bending)
     end if
@@ -188,6 +190,10 @@ contains
     real(wp), parameter :: factor = 5.0_wp*epsilon(zero)
     real(wp) :: ratio, of_stiffness, steps
     integer :: k
+    if (allocated(run%newton)) then
+      call add_feature(run%plan, 'refinement', .false., "Newton's method refines by itself")
+      return
+    end if
     ratio = zero
     do k = 1, size(run%scheme%stage)
       associate (s => run%scheme%stage(k))

@@ -13,6 +13,7 @@ module scene_controls
   use model_data, only: model_t, controls_t, count_steps
   use scene_contact, only: contact_keyword
   use scene_explicit, only: read_timestep
+  use scene_finite, only: read_kinematics
   use scene_mass, only: read_wave, refuse_wave
   use scene_steps, only: read_steps
   implicit none
@@ -65,6 +66,7 @@ contains
         call read_scheme(deck, controls)
         call read_mass(deck, controls)
       end if
+      call read_kinematics(deck, controls)
       call read_static(deck, controls)
       call read_timestep(deck, controls)
       if (.not. (controls%is_explicit .or. is_implicit)) call refuse_explicit(deck, controls)

@@ -23,6 +23,7 @@ module scene_model
   use scene_rigid_space, only: read_rigid_in_space
   use scene_sets, only: read_sets
   use scene_explicit, only: find_step
+  use scene_finite, only: check_laws
   use scene_walls, only: read_walls, add_bodies
   implicit none
   private
@@ -45,6 +46,7 @@ contains
       call read_nodes(deck, model, maps)
       call read_materials(deck, model, maps)
       call read_parts(deck, model, maps)
+      call check_laws(deck, model)
       call read_elements(deck, model, maps)
     end if
     if (deck%problems%count == 0) then

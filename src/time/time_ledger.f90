@@ -130,7 +130,11 @@ contains
     ledger%part_momentum = zero
     ledger%angular = zero
     do i = 1, model%mesh_nodes
-      call add_moment(model%x(:, i), ledger%mv(:, i), ledger%angular)
+      if (model%controls%is_finite) then
+        call add_moment(model%x(:, i) + state%u(:, i), ledger%mv(:, i), ledger%angular)
+      else
+        call add_moment(model%x(:, i), ledger%mv(:, i), ledger%angular)
+      end if
       if (ledger%owner(i) > 0) call add_node(ledger, ledger%owner(i), one, state%v, i)
     end do
     do k = 1, size(ledger%share)

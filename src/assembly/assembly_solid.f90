@@ -1,0 +1,139 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Blocks of elements at finite deformation: their forces, tangents and energies on the nodes.
+module assembly_solid
+  use assembly_blocks, only: element_block_t
+  use base_kinds, only: wp, zero, one
+  use element_base, only: most_nodes
+  use linalg_graph, only: graph_t, block_matrix_t
+  use model_data, only: model_t
+  use solid_block, only: solid_t, force_rule_t, make_solid, begin_step, commit_step, &
+      element_force, element_tangent, element_energy, smallest_determinant
+  implicit none
+  private
+  public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
+      add_solid_tangents, add_solid_energy, smallest_stretch
+
+contains
+
+  !> A solid for each block; those of rigid parts have no elements.
+  subroutine make_solids(model, block, solid)
+    type(model_t), intent(in) :: model
+    type(element_block_t), intent(in) :: block(:)
+    type(solid_t), allocatable, intent(out) :: solid(:)
+    integer :: b
+    allocate (solid(size(block)))
+    do b = 1, size(block)
+      if (block(b)%is_rigid) cycle
+      associate (part => model%part(block(b)%part))
+        call make_solid(model%mesh%kind(block(b)%type)%item, &
+            model%material(part%material)%item, part%plane, part%thickness, block(b)%first, &
+            block(b)%node, model%x, solid(b))
+      end associate
+    end do
+  end subroutine make_solids
+
+  !> A step begins at U0 (dim, n).
+  pure subroutine begin_solids(solid, u0)
+    type(solid_t), intent(inout) :: solid(:)
+    real(wp), intent(in) :: u0(:, :)
+    integer :: b
+    do b = 1, size(solid)
+      if (solid(b)%n > 0) call begin_step(solid(b), u0)
+    end do
+  end subroutine begin_solids
+
+  !> It is accepted with the displacements u1 (dim, n) at its end.
+  pure subroutine commit_solids(solid, u1)
+    type(solid_t), intent(inout) :: solid(:)
+    real(wp), intent(in) :: u1(:, :)
+    integer :: b
+    do b = 1, size(solid)
+      if (solid(b)%n > 0) call commit_step(solid(b), u1)
+    end do
+  end subroutine commit_solids
+
+  !> f = f - factor f*(U0, U0 + x), all (dim, n); work: of f* on x, added up [F L].
+  pure subroutine subtract_solid_force(solid, rule, factor, u0, x, f, work)
+    type(solid_t), intent(in) :: solid(:)
+    type(force_rule_t), intent(in) :: rule
+    real(wp), intent(in) :: factor, u0(:, :), x(:, :)
+    real(wp), intent(inout) :: f(:, :)
+    real(wp), intent(out), optional :: work
+    real(wp) :: force(size(f, 1), most_nodes), total
+    integer :: b, k, i
+    total = zero
+    do b = 1, size(solid)
+      associate (s => solid(b))
+        do k = 1, s%n
+          call element_force(s, k, rule, u0, x, force(:, :s%nodes))
+          do i = 1, s%nodes
+            f(:, s%node(i, k)) = f(:, s%node(i, k)) - factor*force(:, i)
+            total = total + dot_product(force(:, i), x(:, s%node(i, k)) - x(:, s%node(1, k)))
+          end do
+        end do
+      end associate
+    end do
+    if (present(work)) work = total
+  end subroutine subtract_solid_force
+
+  !> matrix = matrix + d f*/dx.
+  pure subroutine add_solid_tangents(solid, rule, u0, x, graph, matrix)
+    type(solid_t), intent(in) :: solid(:)
+    type(force_rule_t), intent(in) :: rule
+    real(wp), intent(in) :: u0(:, :), x(:, :)
+    type(graph_t), intent(in) :: graph
+    type(block_matrix_t), intent(inout) :: matrix
+    real(wp), allocatable :: ke(:, :)
+    integer :: b, k, i, j, d, at
+    d = size(u0, 1)
+    do b = 1, size(solid)
+      associate (s => solid(b))
+        if (s%n == 0) cycle
+        allocate (ke(d*s%nodes, d*s%nodes))
+        do k = 1, s%n
+          call element_tangent(s, k, rule, u0, x, ke)
+          do j = 1, s%nodes
+            do i = 1, s%nodes
+              at = graph%position(s%node(i, k), s%node(j, k))
+              matrix%value(:, :, at) = matrix%value(:, :, at) &
+                  + ke(d*(i - 1) + 1:d*i, d*(j - 1) + 1:d*j)
+            end do
+          end do
+        end do
+        deallocate (ke)
+      end associate
+    end do
+  end subroutine add_solid_tangents
+
+  !> energy = energy + that of a block at displacements u [F L].
+  pure subroutine add_solid_energy(solid, u, energy)
+    type(solid_t), intent(in) :: solid
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: energy
+    integer :: k
+    do k = 1, solid%n
+      energy = energy + element_energy(solid, k, u)
+    end do
+  end subroutine add_solid_energy
+
+  !> The smallest determinant of F at a point, at displacements u, and the row of its element.
+  pure subroutine smallest_stretch(solid, u, stretch, element)
+    type(solid_t), intent(in) :: solid(:)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(out) :: stretch
+    integer, intent(out) :: element
+    real(wp) :: det
+    integer :: b, k
+    stretch = huge(one)
+    element = 0
+    do b = 1, size(solid)
+      do k = 1, solid(b)%n
+        det = smallest_determinant(solid(b), k, u)
+        if (det >= stretch) cycle
+        stretch = det
+        element = solid(b)%first + k - 1
+      end do
+    end do
+  end subroutine smallest_stretch
+
+end module assembly_solid

@@ -1,0 +1,172 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A stage at finite deformation: Newton's method on
+!>   R(x) = b - c_m M x - f*(U0, U0 + x) + H' r = 0,  x = U1 - U0,
+!> with the law of contact for all of x and r in each pass: from R without r the motion d_f, then
+!> u = W r + q with q of x + d_f, then d = d_f + A^-1 H' r. r is the whole force, so that
+!> nothing of contact is linearised; the factor of A is that of the start of the step as long as
+!> it serves, for an old A costs passes and no accuracy.
+module run_newton
+  use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, smallest_stretch
+  use assembly_system, only: clear_fixed, multiply_mass
+  use base_kinds, only: wp, zero, one, half
+  use base_status, only: status_t, fail, failed, status_numerical
+  use base_strings, only: to_text
+  use base_timers, only: phase_product, phase_solve
+  use run_data, only: run_t
+  use run_operator, only: factor_matrix
+  use solid_block, only: force_rule_t
+  use run_stage, only: add_contact, weigh_loads
+  use time_ledger, only: find_strain_energies
+  implicit none
+  private
+  public :: make_newton, solve_newton, close_newton
+
+contains
+
+  !> Work space; what the force of a step is.
+  subroutine make_newton(run)
+    type(run_t), intent(inout) :: run
+    allocate (run%newton)
+    allocate (run%newton%d(run%system%dim, run%system%n), source=zero)
+    allocate (run%newton%residual, source=run%newton%d)
+    run%system%force_rule = force_rule_t(kind=run%model%controls%force, &
+        before=one - run%scheme%stage(1)%c_k, now=run%scheme%stage(1)%c_k)
+  end subroutine make_newton
+
+  !> The motion x of a stage, with contact.
+  subroutine solve_newton(run, stage, t1, acting, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    logical, intent(out) :: acting
+    type(status_t), intent(inout) :: status
+    real(wp) :: change, last
+    integer :: pass
+    logical :: is_done
+    acting = .false.
+    if (failed(status)) return
+    call run%timers%enter(phase_product)
+    call begin_solids(run%system%solid, run%state%u)
+    run%x = run%scheme%h*run%state%v
+    if (run%system%any_fixed) call clear_fixed(run%system, run%x)
+    run%newton%steps = run%newton%steps + 1
+    last = huge(one)
+    do pass = 1, run%newton%most_passes
+      call find_residual(run, stage, t1)
+      call judge(run, change, last, pass, is_done)
+      if (is_done) exit
+      if (needs_factor(pass, change, last)) call factor_matrix(run, .false., status)
+      if (pass > 1) last = change
+      call correct(run, acting, status)
+      if (failed(status)) return
+      call move_on(run, change, status)
+      if (failed(status)) return
+      run%newton%passes = run%newton%passes + 1
+      run%newton%worst = max(run%newton%worst, pass)
+    end do
+    if (.not. is_done) call fail(status, status_numerical, "Newton's method has not converged "// &
+        'in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
+        to_text(change), hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
+  end subroutine solve_newton
+
+  !> run%b: what is left of the balance at x but for contact, held dofs cleared.
+  subroutine find_residual(run, stage, t1)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    call run%timers%enter(phase_product)
+    run%b = zero
+    if (run%plan%loads) call weigh_loads(run, stage, t1)
+    call run%scheme%right_side(stage, run%system, run%state, run%b)
+    call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
+    call subtract_solid_force(run%system%solid, run%system%force_rule, one, run%state%u, run%x, &
+        run%b, run%newton%work)
+    run%newton%residual = run%b
+    if (run%system%any_fixed) call clear_fixed(run%system, run%b)
+  end subroutine find_residual
+
+  !> Is x the solution: did the last pass move little, and is little left of the balance, with the
+  !> forces of contact that this pass had? Or does round-off let nothing better be?
+  subroutine judge(run, change, last, pass, is_done)
+    type(run_t), intent(in) :: run
+    real(wp), intent(in) :: change, last
+    integer, intent(in) :: pass
+    logical, intent(out) :: is_done
+    real(wp), parameter :: floor = 1.0e-7_wp
+    real(wp) :: motion
+    is_done = .false.
+    if (pass == 1) return
+    motion = maxval(abs(run%x))
+    is_done = change <= run%newton%motion_tolerance*motion
+    is_done = is_done .or. (change < floor*motion .and. change > 0.3_wp*last)
+  end subroutine judge
+
+  !> At the start, and where the last passes converged slowly.
+  pure logical function needs_factor(pass, change, last)
+    integer, intent(in) :: pass
+    real(wp), intent(in) :: change, last
+    needs_factor = pass == 1 .or. pass == 6 .or. pass == 12
+    if (pass > 3) needs_factor = needs_factor .or. change > half*last
+  end function needs_factor
+
+  !> run%newton%d: the correction of x, with contact.
+  subroutine correct(run, acting, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    real(wp) :: free(size(run%b_interface, 1), size(run%b_interface, 2))
+    if (failed(status)) return
+    call run%timers%enter(phase_solve)
+    call run%solver%forward(run%b, run%b_interface)
+    free = run%b_interface
+    call run%solver%solve_schur(free)
+    if (run%plan%contact) then
+      run%x_interface = run%x(:, run%contact%interface_node) + free
+      call add_contact(run, acting, status)
+      if (.not. acting) run%x_interface = free
+    else
+      run%x_interface = free
+    end if
+    call run%solver%backward(run%x_interface, run%newton%d)
+    run%solves = run%solves + 1
+  end subroutine correct
+
+  !> x = x + d, or less of d where an element would be turned inside out.
+  subroutine move_on(run, change, status)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(out) :: change
+    type(status_t), intent(inout) :: status
+    real(wp), parameter :: least_share = 1.0e-3_wp
+    real(wp) :: share, stretch
+    integer :: element
+    share = one
+    do
+      call smallest_stretch(run%system%solid, run%state%u + run%x + share*run%newton%d, &
+          stretch, element)
+      if (stretch > zero) exit
+      share = half*share
+      if (share < least_share) then
+        call fail(status, status_numerical, 'element '// &
+            to_text(run%model%mesh%id(element))//' is turned inside out (det F <= 0)', &
+            hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
+        return
+      end if
+    end do
+    run%x = run%x + share*run%newton%d
+    change = maxval(abs(run%newton%d))
+  end subroutine move_on
+
+  !> After the update: what the internal force took beside the strain energy goes to the
+  !> algorithmic loss, and the history of the points is that of the end.
+  subroutine close_newton(run)
+    type(run_t), intent(inout) :: run
+    real(wp) :: energy
+    call find_strain_energies(run%model, run%system, run%state, run%ledger)
+    energy = sum(run%ledger%part_internal)
+    run%ledger%algorithmic = run%ledger%algorithmic &
+        + (run%newton%work - (energy - run%newton%energy))
+    run%newton%energy = energy
+    call commit_solids(run%system%solid, run%state%u)
+  end subroutine close_newton
+
+end module run_newton

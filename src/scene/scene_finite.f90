@@ -1,0 +1,99 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Finite deformation: NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, *BIPACT_KINEMATICS, and what does
+!> not go with them.
+module scene_finite
+  use base_kinds, only: zero, half
+  use base_strings, only: to_text
+  use deck_data, only: deck_t
+  use model_data, only: model_t, controls_t
+  use solid_block, only: force_ends, force_middle, force_conserving
+  implicit none
+  private
+  public :: read_kinematics, check_laws
+
+  integer, parameter :: solver_linear = 1, solver_finite = 12
+
+contains
+
+  !> Small displacements or finite deformation; the scheme must have been read.
+  subroutine read_kinematics(deck, controls)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    integer :: r, solver, card
+    solver = solver_linear
+    r = deck%next('CONTROL_IMPLICIT_SOLUTION', 1, 0)
+    if (r > 0) solver = deck%integer(r, 'NSOLVR')
+    if (r > 0 .and. solver /= solver_linear .and. solver /= solver_finite) &
+        call deck%complain(r, 'NSOLVR', 'expected 1 (small displacements) or 12 (finite '// &
+        'deformation)')
+    controls%is_finite = solver == solver_finite
+    card = deck%next('BIPACT_KINEMATICS', 1, 0)
+    if (.not. controls%is_finite) then
+      if (card > 0) call deck%complain(card, 'FORCE', '*BIPACT_KINEMATICS is of finite '// &
+          'deformation', 'ask for it by NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION')
+      return
+    end if
+    call choose_force(deck, controls, card)
+    call check_scheme(deck, controls, r)
+  end subroutine read_kinematics
+
+  !> The force of a step: EMC unless the deck or the scheme says otherwise.
+  subroutine choose_force(deck, controls, card)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    integer, intent(in) :: card
+    logical :: is_theta
+    integer :: time
+    is_theta = controls%scheme == 'THETA' .and. .not. controls%is_static
+    controls%force = merge(force_conserving, force_ends, is_theta)
+    if (card > 0) then
+      if (deck%is_given(card, 'FORCE') .and. .not. is_theta) call deck%complain(card, &
+          'FORCE', 'FORCE is of scheme THETA of *BIPACT_TIME: leave it blank')
+      select case (deck%word(card, 'FORCE'))
+      case ('PAPER')
+        controls%force = force_ends
+      case ('MIDPOINT')
+        controls%force = force_middle
+      end select
+    end if
+    if (controls%force == force_ends) return
+    time = deck%next('BIPACT_TIME', 1, 0)
+    if (deck%is_given(time, 'XI') .and. abs(controls%xi - half) > zero) call deck%complain( &
+        time, 'XI', 'expected 0.5: the force of the step is that of its middle', &
+        'FORCE PAPER of *BIPACT_KINEMATICS has an XI')
+    controls%xi = half
+  end subroutine choose_force
+
+  subroutine check_scheme(deck, controls, r)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(in) :: controls
+    integer, intent(in) :: r
+    if (controls%is_static) return
+    if (controls%scheme /= 'THETA') call deck%complain(r, 'NSOLVR', 'scheme '// &
+        trim(controls%scheme)//' of *BIPACT_TIME is not available at finite deformation', &
+        'take SCHEME THETA')
+    if (controls%redistribute) call deck%complain(deck%next('BIPACT_MASS', 1, 0), 'REDIST', &
+        'massless contact nodes are not available at finite deformation')
+    if (controls%mass == 'DISPERSION') call deck%complain(deck%next('BIPACT_MASS', 1, 0), &
+        'TYPE', 'DISPERSION is tuned to one speed of waves, which changes with the strain', &
+        'take CONSISTENT or LUMPED')
+  end subroutine check_scheme
+
+  !> Each part needs a law of the kind that the deck asks for; parts and materials must have been
+  !> read.
+  subroutine check_laws(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    integer :: p
+    do p = 1, size(model%part)
+      if (model%part(p)%material == 0) cycle
+      associate (law => model%material(model%part(p)%material)%item)
+        if (model%controls%is_finite .and. .not. law%is_finite) call deck%complain( &
+            model%part(p)%record, 'MID', 'material '//to_text(law%id)//' of part '// &
+            to_text(model%part(p)%id)//' is not available at finite deformation', &
+            'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')
+      end associate
+    end do
+  end subroutine check_laws
+
+end module scene_finite

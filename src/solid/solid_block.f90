@@ -1,0 +1,359 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A block of elements of one type and part at finite deformation, total Lagrangian: slopes and
+!> weights of the points are made once, on the reference. Its force over a step from U0 to
+!> U1 = U0 + x is one of three:
+!>   ends        before f(U0) + now f(U1);
+!>   middle      f((U0 + U1)/2);
+!>   conserving  sum w F_m S* dN/dX with F_m of the mean displacement and one quotient an
+!>               element in S*, whose work is the change of the energy exactly (Simo & Tarnow
+!>               1992; Gonzalez 2000).
+module solid_block
+  use base_kinds, only: wp, zero, one, half
+  use element_base, only: element_t, most_points, strains
+  use linalg_dense, only: cross
+  use material_base, only: material_t
+  use material_plane, only: respond_as
+  use solid_points, only: displacement_gradient, green_strain, strain_matrix, &
+      add_stress_force, add_material_part, add_geometric_part
+  implicit none
+  private
+  !> In the order of force_names of deck_names.
+  integer, parameter, public :: force_conserving = 1, force_ends = 2, force_middle = 3
+
+  !> The force of a step.
+  type, public :: force_rule_t
+    integer :: kind = force_ends
+    real(wp) :: before = zero, now = one     !< weights of f(U0) and f(U1), for force_ends
+  end type force_rule_t
+
+  type, public :: solid_t
+    integer :: first = 0, n = 0              !< its elements: the first in the mesh, how many
+    integer :: nodes = 0, dim = 0, points = 0, strains = 0
+    integer :: plane = 0
+    class(material_t), allocatable :: material
+    integer, allocatable :: node(:, :)       !< (nodes, n)
+    real(wp), allocatable :: weight(:, :)    !< (points, n) of the rule, reference volume [L3]
+    real(wp), allocatable :: slope(:, :, :, :)   !< (nodes, dim, points, n) dN/dX [1/L]
+    real(wp), allocatable :: energy(:)       !< (n) of elements at the start of the step [F L]
+    real(wp), allocatable :: history(:, :, :)    !< (states, points, n) at the start of the step
+  end type solid_t
+
+  public :: make_solid, begin_step, commit_step, element_force, element_tangent, &
+      element_energy, smallest_determinant
+
+contains
+
+  !> A block of an element type: nodes (nodes, n) of the elements from `first` on, coordinates x
+  !> (dim, *) [L], thickness [L] (1 in space).
+  subroutine make_solid(element, material, plane, thickness, first, node, x, solid)
+    class(element_t), intent(in) :: element
+    class(material_t), intent(in) :: material
+    integer, intent(in) :: plane, first, node(:, :)
+    real(wp), intent(in) :: thickness, x(:, :)
+    type(solid_t), intent(out) :: solid
+    real(wp) :: xi(3, most_points), w(most_points), shape(size(node, 1)), det
+    integer :: g, k
+    solid%dim = size(x, 1)
+    solid%first = first
+    solid%n = size(node, 2)
+    solid%nodes = size(node, 1)
+    solid%plane = plane
+    solid%strains = strains(solid%dim)
+    solid%node = node
+    allocate (solid%material, source=material)
+    call element%stiffness_rule(x(:, node(:, 1)), solid%points, xi, w)
+    allocate (solid%weight(solid%points, solid%n), solid%energy(solid%n), &
+        solid%slope(solid%nodes, solid%dim, solid%points, solid%n))
+    do k = 1, solid%n
+      call element%stiffness_rule(x(:, node(:, k)), solid%points, xi, w)
+      do g = 1, solid%points
+        call element%gradients(x(:, node(:, k)), xi(:solid%dim, g), shape, &
+            solid%slope(:, :, g, k), det)
+        solid%weight(g, k) = thickness*det*w(g)
+      end do
+    end do
+    allocate (solid%history(material%states, solid%points, solid%n), source=zero)
+    solid%energy = zero
+  end subroutine make_solid
+
+  !> What a step from U0 (dim, *) needs: the energy of each element there.
+  pure subroutine begin_step(solid, u0)
+    type(solid_t), intent(inout) :: solid
+    real(wp), intent(in) :: u0(:, :)
+    integer :: k
+    if (solid%material%is_quadratic) return
+    do k = 1, solid%n
+      solid%energy(k) = element_energy(solid, k, u0)
+    end do
+  end subroutine begin_step
+
+  !> The step is accepted: the history at U1 (dim, *) becomes the old one.
+  pure subroutine commit_step(solid, u1)
+    type(solid_t), intent(inout) :: solid
+    real(wp), intent(in) :: u1(:, :)
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim), e(solid%strains)
+    real(wp) :: s(solid%strains), d(solid%strains, solid%strains), density
+    real(wp) :: new(solid%material%states)
+    integer :: g, k
+    if (solid%material%states == 0) return
+    do k = 1, solid%n
+      call relative(solid, k, u1, a)
+      do g = 1, solid%points
+        call displacement_gradient(a, solid%slope(:, :, g, k), h)
+        call green_strain(h, e)
+        call respond_as(solid%material, solid%plane, e, solid%history(:, g, k), .false., s, &
+            d, density, new)
+        solid%history(:, g, k) = new
+      end do
+    end do
+  end subroutine commit_step
+
+  !> Force (dim, nodes) [F] of element k over the step from U0 by x, both (dim, *) [L].
+  pure subroutine element_force(solid, k, rule, u0, x, force)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    type(force_rule_t), intent(in) :: rule
+    real(wp), intent(in) :: u0(:, :), x(:, :)
+    real(wp), intent(out) :: force(:, :)
+    real(wp), dimension(solid%dim, solid%nodes) :: a, d
+    call relative(solid, k, u0, a)
+    call relative(solid, k, x, d)
+    force = zero
+    select case (rule%kind)
+    case (force_middle)
+      call add_force_at(solid, k, one, a + half*d, force)
+    case (force_conserving)
+      call add_conserving(solid, k, a, d, force)
+    case default
+      if (abs(rule%before) > zero) call add_force_at(solid, k, rule%before, a, force)
+      if (abs(rule%now) > zero) call add_force_at(solid, k, rule%now, a + d, force)
+    end select
+  end subroutine element_force
+
+  !> Displacements of an element relative to its first node.
+  pure subroutine relative(solid, k, u, a)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(out) :: a(:, :)
+    integer :: i
+    do i = 1, solid%nodes
+      a(:, i) = u(:, solid%node(i, k)) - u(:, solid%node(1, k))
+    end do
+  end subroutine relative
+
+  !> force = force + factor f(U).
+  pure subroutine add_force_at(solid, k, factor, u, force)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: factor, u(:, :)
+    real(wp), intent(inout) :: force(:, :)
+    real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
+    real(wp) :: d(solid%strains, solid%strains, solid%points), energy
+    integer :: g
+    call stresses_at(solid, k, u, .false., h, s, d, energy)
+    do g = 1, solid%points
+      call add_stress_force(factor*solid%weight(g, k), h(:, :, g), s(:, g), &
+          solid%slope(:, :, g, k), force)
+    end do
+  end subroutine add_force_at
+
+  !> Of all points of element k at relative displacements u: H, stress, moduli where asked for;
+  !> energy of the element [F L].
+  pure subroutine stresses_at(solid, k, u, with_moduli, h, s, d, energy)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: u(:, :)
+    logical, intent(in) :: with_moduli
+    real(wp), intent(out) :: h(:, :, :), s(:, :), d(:, :, :), energy
+    real(wp) :: e(solid%strains, solid%points)
+    integer :: g
+    do g = 1, solid%points
+      call displacement_gradient(u, solid%slope(:, :, g, k), h(:, :, g))
+      call green_strain(h(:, :, g), e(:, g))
+    end do
+    call respond(solid, k, e, with_moduli, s, d, energy)
+  end subroutine stresses_at
+
+  !> The law at all points of an element for their strains e; energy of the element [F L].
+  pure subroutine respond(solid, k, e, with_moduli, s, d, energy)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: e(:, :)
+    logical, intent(in) :: with_moduli
+    real(wp), intent(out) :: s(:, :), d(:, :, :), energy
+    real(wp) :: density, new(solid%material%states)
+    integer :: g
+    energy = zero
+    do g = 1, solid%points
+      call respond_as(solid%material, solid%plane, e(:, g), solid%history(:, g, k), &
+          with_moduli, s(:, g), d(:, :, g), density, new)
+      energy = energy + solid%weight(g, k)*density
+    end do
+  end subroutine respond
+
+  !> The conserving force of an element, a the relative displacements U0, x those of the step.
+  pure subroutine add_conserving(solid, k, a, x, force)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: a(:, :), x(:, :)
+    real(wp), intent(inout) :: force(:, :)
+    real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
+    real(wp) :: d(solid%strains, solid%strains, solid%points)
+    integer :: g
+    call conserving_stresses(solid, k, a, x, .false., h, s, d)
+    do g = 1, solid%points
+      call add_stress_force(solid%weight(g, k), h(:, :, g), s(:, g), &
+          solid%slope(:, :, g, k), force)
+    end do
+  end subroutine add_conserving
+
+  !> H of the mean displacement and S* at the points, moduli at the mean strain where asked for.
+  !> S* = S(E_m) + q (E1 - E0), q = [W1 - W0 - sum w S(E_m):(E1 - E0)] / sum w |E1 - E0|^2;
+  !> where the strain hardly changes q is left out: its numerator, of third order, is round-off
+  !> there. A law with history has S* = S(E1): the step ends on its yield surface.
+  pure subroutine conserving_stresses(solid, k, a, x, with_moduli, h, s, d)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: a(:, :), x(:, :)
+    logical, intent(in) :: with_moduli
+    real(wp), intent(out) :: h(:, :, :), s(:, :), d(:, :, :)
+    real(wp), parameter :: least = 2.5e-11_wp    ! of |dE|^2 = |dC|^2/4
+    real(wp), dimension(solid%strains, solid%points) :: e0, e1, s_end
+    real(wp) :: h1(solid%dim, solid%dim), energy, change, work, length
+    real(wp) :: no_moduli(solid%strains, solid%strains, solid%points)
+    integer :: g
+    do g = 1, solid%points
+      call displacement_gradient(a, solid%slope(:, :, g, k), h(:, :, g))
+      call green_strain(h(:, :, g), e0(:, g))
+      call displacement_gradient(a + x, solid%slope(:, :, g, k), h1)
+      call green_strain(h1, e1(:, g))
+      h(:, :, g) = half*(h(:, :, g) + h1)
+    end do
+    if (solid%material%states > 0) then
+      call respond(solid, k, e1, with_moduli, s, d, energy)
+      return
+    end if
+    call respond(solid, k, half*(e0 + e1), with_moduli, s, d, energy)
+    if (solid%material%is_quadratic) return
+    length = zero
+    work = zero
+    do g = 1, solid%points
+      length = length + solid%weight(g, k)*square_of(e1(:, g) - e0(:, g), solid%dim)
+      work = work + solid%weight(g, k)*dot_product(s(:, g), e1(:, g) - e0(:, g))
+    end do
+    if (.not. length > least*sum(solid%weight(:, k))) return
+    call respond(solid, k, e1, .false., s_end, no_moduli, energy)
+    change = (energy - solid%energy(k) - work)/length
+    do g = 1, solid%points
+      s(:, g) = s(:, g) + change*tensor_of(e1(:, g) - e0(:, g), solid%dim)
+    end do
+  end subroutine conserving_stresses
+
+  !> E:E of a strain, whose shears are 2 E12.
+  pure real(wp) function square_of(e, dim)
+    real(wp), intent(in) :: e(:)
+    integer, intent(in) :: dim
+    square_of = dot_product(e(:dim), e(:dim)) + half*dot_product(e(dim + 1:), e(dim + 1:))
+  end function square_of
+
+  !> The components E12 in place of 2 E12.
+  pure function tensor_of(e, dim) result(t)
+    real(wp), intent(in) :: e(:)
+    integer, intent(in) :: dim
+    real(wp) :: t(size(e))
+    t = e
+    t(dim + 1:) = half*e(dim + 1:)
+  end function tensor_of
+
+  !> Symmetric tangent (dim nodes, dim nodes) [F/L] of the force of a step in x. Of the
+  !> conserving force the exact one is not symmetric: B(F1) for B(F_m) on the right, and the
+  !> derivative of the quotient, are left out; they cost passes of Newton's method, no accuracy.
+  pure subroutine element_tangent(solid, k, rule, u0, x, ke)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    type(force_rule_t), intent(in) :: rule
+    real(wp), intent(in) :: u0(:, :), x(:, :)
+    real(wp), intent(out) :: ke(:, :)
+    real(wp), dimension(solid%dim, solid%nodes) :: a, change
+    real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
+    real(wp) :: d(solid%strains, solid%strains, solid%points), energy
+    real(wp) :: b(solid%strains, solid%dim*solid%nodes), factor
+    integer :: g
+    call relative(solid, k, u0, a)
+    call relative(solid, k, x, change)
+    factor = half
+    select case (rule%kind)
+    case (force_middle)
+      call stresses_at(solid, k, a + half*change, .true., h, s, d, energy)
+    case (force_conserving)
+      call conserving_stresses(solid, k, a, change, .true., h, s, d)
+    case default
+      call stresses_at(solid, k, a + change, .true., h, s, d, energy)
+      factor = rule%now
+    end select
+    ke = zero
+    do g = 1, solid%points
+      associate (w => factor*solid%weight(g, k), slope => solid%slope(:, :, g, k))
+        call strain_matrix(h(:, :, g), slope, b)
+        call add_material_part(merge(solid%weight(g, k), w, stress_of_end(solid, rule)), &
+            d(:, :, g), b, ke)
+        call add_geometric_part(w, s(:, g), slope, ke)
+      end associate
+    end do
+  end subroutine element_tangent
+
+  !> Is the stress of the conserving force that of the end of the step? It then changes with x
+  !> wholly, not by half.
+  pure logical function stress_of_end(solid, rule)
+    type(solid_t), intent(in) :: solid
+    type(force_rule_t), intent(in) :: rule
+    stress_of_end = rule%kind == force_conserving .and. solid%material%states > 0
+  end function stress_of_end
+
+  !> Strain energy of element k at displacements u (dim, *) [F L].
+  pure real(wp) function element_energy(solid, k, u) result(energy)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: u(:, :)
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim), e(solid%strains)
+    real(wp) :: s(solid%strains), d(solid%strains, solid%strains), density
+    real(wp) :: new(solid%material%states)
+    integer :: g
+    call relative(solid, k, u, a)
+    energy = zero
+    do g = 1, solid%points
+      call displacement_gradient(a, solid%slope(:, :, g, k), h)
+      call green_strain(h, e)
+      call respond_as(solid%material, solid%plane, e, solid%history(:, g, k), .false., s, &
+          d, density, new)
+      energy = energy + solid%weight(g, k)*density
+    end do
+  end function element_energy
+
+  !> The smallest det F at the points of element k at displacements u (dim, *); not a number
+  !> counts as minus one.
+  pure real(wp) function smallest_determinant(solid, k, u) result(least)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: u(:, :)
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim), det
+    integer :: g, i
+    call relative(solid, k, u, a)
+    least = huge(one)
+    do g = 1, solid%points
+      call displacement_gradient(a, solid%slope(:, :, g, k), h)
+      do i = 1, solid%dim
+        h(i, i) = one + h(i, i)
+      end do
+      if (solid%dim == 2) then
+        det = h(1, 1)*h(2, 2) - h(1, 2)*h(2, 1)
+      else
+        det = dot_product(h(:, 1), cross(h(:, 2), h(:, 3)))
+      end if
+      if (.not. det > -one) det = -one
+      least = min(least, det)
+    end do
+  end function smallest_determinant
+
+end module solid_block

@@ -1,0 +1,146 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Kinematics at the points of an element, total Lagrangian: displacement gradient H, Green's
+!> strain E = (H + H' + H'H)/2, which keeps the digits of small strains, and the matrix B of
+!> dE = B dU. Strains are (E11, E22, 2 E12) in the plane, (E11, E22, E33, 2 E12, 2 E23, 2 E31)
+!> in space.
+module solid_points
+  use base_kinds, only: wp, zero, one, half
+  implicit none
+  private
+  public :: displacement_gradient, green_strain, strain_matrix, add_stress_force, &
+      add_material_part, add_geometric_part
+
+contains
+
+  !> H(i, j) = dU_i/dX_j from displacements u (dim, nodes) relative to the first node and slopes
+  !> (nodes, dim) [1/L]: a translation leaves no trace in the digits.
+  pure subroutine displacement_gradient(u, slope, h)
+    real(wp), intent(in) :: u(:, :), slope(:, :)
+    real(wp), intent(out) :: h(:, :)
+    integer :: a, i, j
+    h = zero
+    do j = 1, size(h, 2)
+      do a = 2, size(u, 2)
+        do i = 1, size(h, 1)
+          h(i, j) = h(i, j) + u(i, a)*slope(a, j)
+        end do
+      end do
+    end do
+  end subroutine displacement_gradient
+
+  !> Green's strain of a displacement gradient.
+  pure subroutine green_strain(h, e)
+    real(wp), intent(in) :: h(:, :)
+    real(wp), intent(out) :: e(:)
+    integer :: k
+    if (size(h, 1) == 2) then
+      do k = 1, 2
+        e(k) = h(k, k) + half*(h(1, k)**2 + h(2, k)**2)
+      end do
+      e(3) = h(1, 2) + h(2, 1) + h(1, 1)*h(1, 2) + h(2, 1)*h(2, 2)
+    else
+      do k = 1, 3
+        e(k) = h(k, k) + half*(h(1, k)**2 + h(2, k)**2 + h(3, k)**2)
+      end do
+      e(4) = h(1, 2) + h(2, 1) + dot_product(h(:, 1), h(:, 2))
+      e(5) = h(2, 3) + h(3, 2) + dot_product(h(:, 2), h(:, 3))
+      e(6) = h(3, 1) + h(1, 3) + dot_product(h(:, 3), h(:, 1))
+    end if
+  end subroutine green_strain
+
+  !> B (strains, dim nodes) = sym(F' dN/dX) at F = I + H: dofs node by node.
+  pure subroutine strain_matrix(h, slope, b)
+    real(wp), intent(in) :: h(:, :), slope(:, :)
+    real(wp), intent(out) :: b(:, :)
+    real(wp) :: f(size(h, 1), size(h, 1))
+    integer :: a, i, d, c
+    d = size(h, 1)
+    f = h
+    do i = 1, d
+      f(i, i) = one + h(i, i)
+    end do
+    do a = 1, size(slope, 1)
+      do i = 1, d
+        c = d*(a - 1) + i
+        b(1, c) = f(i, 1)*slope(a, 1)
+        b(2, c) = f(i, 2)*slope(a, 2)
+        if (d == 2) then
+          b(3, c) = f(i, 1)*slope(a, 2) + f(i, 2)*slope(a, 1)
+        else
+          b(3, c) = f(i, 3)*slope(a, 3)
+          b(4, c) = f(i, 1)*slope(a, 2) + f(i, 2)*slope(a, 1)
+          b(5, c) = f(i, 2)*slope(a, 3) + f(i, 3)*slope(a, 2)
+          b(6, c) = f(i, 3)*slope(a, 1) + f(i, 1)*slope(a, 3)
+        end if
+      end do
+    end do
+  end subroutine strain_matrix
+
+  !> force (dim, nodes) = force + factor (F S) dN/dX at F = I + H [F].
+  pure subroutine add_stress_force(factor, h, s, slope, force)
+    real(wp), intent(in) :: factor, h(:, :), s(:), slope(:, :)
+    real(wp), intent(inout) :: force(:, :)
+    real(wp) :: p(size(h, 1), size(h, 1)), stress(size(h, 1), size(h, 1))
+    integer :: a, i, j
+    stress = factor*square(s)
+    p = stress
+    do j = 1, size(h, 1)
+      do i = 1, size(h, 1)
+        p(i, j) = p(i, j) + dot_product(h(i, :), stress(:, j))
+      end do
+    end do
+    do a = 1, size(slope, 1)
+      do j = 1, size(h, 1)
+        force(:, a) = force(:, a) + p(:, j)*slope(a, j)
+      end do
+    end do
+  end subroutine add_stress_force
+
+  !> The stress as a matrix.
+  pure function square(s) result(stress)
+    real(wp), intent(in) :: s(:)
+    real(wp) :: stress(size(s)/2 + mod(size(s), 2), size(s)/2 + mod(size(s), 2))
+    if (size(s) == 3) then
+      stress = reshape([s(1), s(3), s(3), s(2)], [2, 2])
+    else
+      stress = reshape([s(1), s(4), s(6), s(4), s(2), s(5), s(6), s(5), s(3)], [3, 3])
+    end if
+  end function square
+
+  !> ke = ke + factor B' D B.
+  pure subroutine add_material_part(factor, d, b, ke)
+    real(wp), intent(in) :: factor, d(:, :), b(:, :)
+    real(wp), intent(inout) :: ke(:, :)
+    real(wp) :: db(size(d, 1))
+    integer :: i, j, k
+    do j = 1, size(b, 2)
+      db = zero
+      do k = 1, size(d, 1)
+        db = db + (factor*b(k, j))*d(:, k)
+      end do
+      do i = 1, size(b, 2)
+        ke(i, j) = ke(i, j) + dot_product(b(:, i), db)
+      end do
+    end do
+  end subroutine add_material_part
+
+  !> ke = ke + factor (dN_a/dX . S dN_b/dX) I for each pair of nodes.
+  pure subroutine add_geometric_part(factor, s, slope, ke)
+    real(wp), intent(in) :: factor, s(:), slope(:, :)
+    real(wp), intent(inout) :: ke(:, :)
+    real(wp) :: row(size(slope, 2)), stress(size(slope, 2), size(slope, 2)), value
+    integer :: a, b, i, d
+    d = size(slope, 2)
+    stress = factor*square(s)
+    do b = 1, size(slope, 1)
+      row = matmul(stress, slope(b, :))
+      do a = 1, size(slope, 1)
+        value = dot_product(slope(a, :), row)
+        do i = 1, d
+          ke(d*(a - 1) + i, d*(b - 1) + i) = ke(d*(a - 1) + i, d*(b - 1) + i) + value
+        end do
+      end do
+    end do
+  end subroutine add_geometric_part
+
+end module solid_points
