@@ -85,8 +85,7 @@ contains
     if (run%system%any_fixed) call clear_fixed(run%system, run%b)
   end subroutine find_residual
 
-  !> Is x the solution: did the last pass move little, and is little left of the balance, with the
-  !> forces of contact that this pass had? Or does round-off let nothing better be?
+  !> Is x the solution: did the last pass move little? Or does round-off let nothing better be?
   subroutine judge(run, change, last, pass, is_done)
     type(run_t), intent(in) :: run
     real(wp), intent(in) :: change, last

@@ -5,8 +5,8 @@ module run_plan
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_names, only: force_names, table_names, table_count, table_glstat, table_matsum, &
-      table_nodout, table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, table_sleout, &
-      table_timing, table_rbdout, step_halve, step_event
+      table_nodout, table_elout, table_spcforc, table_ncforc, table_rwforc, table_rcforc, &
+      table_sleout, table_timing, table_rbdout, step_halve, step_event
   use model_data, only: model_t, count_steps
   use run_data, only: plan_t
   implicit none

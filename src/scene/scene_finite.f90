@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Finite deformation: NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, *BIPACT_KINEMATICS, and what does
-!> not go with them.
+!> Finite deformation: NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, *BIPACT_KINEMATICS, and what
+!> does not go with them.
 module scene_finite
   use base_kinds, only: zero, half
   use base_strings, only: to_text
@@ -79,8 +79,8 @@ contains
         'take CONSISTENT or LUMPED')
   end subroutine check_scheme
 
-  !> Each part needs a law of the kind that the deck asks for; parts and materials must have been
-  !> read.
+  !> Each part needs a law of the kind that the deck asks for; parts and materials must have
+  !> been read.
   subroutine check_laws(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
