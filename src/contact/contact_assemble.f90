@@ -34,12 +34,33 @@ contains
     is_same = contact%rows_are_plain
     do p = 1, size(contact%pairing)
       if (.not. (contact%acts(p) .and. contact%pairing(p)%item%listed > 0)) cycle
-      call contact%pairing(p)%item%find_places(model, u, contact%free, pairing_is_same)
+      if (allocated(contact%half_motion) .and. .not. contact%pairing(p)%item%is_wall) then
+        call contact%pairing(p)%item%find_places(model, u + contact%half_motion, &
+            contact%free - contact%half_motion, pairing_is_same)
+      else
+        call contact%pairing(p)%item%find_places(model, u, contact%free, pairing_is_same)
+      end if
       is_same = is_same .and. pairing_is_same
     end do
     if (is_same) call renew_gaps(contact, is_same)
     if (.not. is_same) call make_rows(contact)
+    if (.not. allocated(contact%half_motion)) return
+    call take_gaps_back(contact, contact%rows)
+    call take_gaps_back(contact, contact%spare)
   end subroutine find_rows
+
+  !> Gaps of rows whose frames are those of the middle of the step: at its start, in that frame.
+  pure subroutine take_gaps_back(contact, rows)
+    type(contact_t), intent(in) :: contact
+    type(rows_t), intent(inout) :: rows
+    real(wp) :: moved(most_components)
+    integer :: a
+    do a = 1, rows%n
+      if (contact%pairing(rows%key(1, a))%item%is_wall) cycle
+      moved = relative_displacement(rows, a, rows%point, contact%half_motion)
+      rows%gap(a) = rows%gap(a) - moved(1)
+    end do
+  end subroutine take_gaps_back
 
   !> The rows of the last step with new gaps, where that is all that has changed.
   subroutine renew_gaps(contact, is_same)
@@ -181,6 +202,7 @@ contains
     else
       call place_end(contact, u, contact%x_end)
       call find_late(model, contact, u, n)
+      if (allocated(contact%half_motion)) call keep_new_rows(contact, n)
       if (n == 0 .or. contact%late_rounds == contact%most_late_rounds) &
           return
       contact%late_rounds = contact%late_rounds + 1
@@ -230,6 +252,20 @@ contains
           contact%late, n)
     end do
   end subroutine find_late
+
+  !> Frames are those of the middle of the step: only rows that are missing are late.
+  pure subroutine keep_new_rows(contact, n)
+    type(contact_t), intent(inout) :: contact
+    integer, intent(inout) :: n
+    integer :: k, kept
+    kept = 0
+    do k = 1, n
+      if (contact%late(k)%row > 0) cycle
+      kept = kept + 1
+      contact%late(kept) = contact%late(k)
+    end do
+    n = kept
+  end subroutine keep_new_rows
 
   !> The first n late rows: new ones, and new frames of rows that keep their reactions.
   subroutine use_late(contact, n)

@@ -29,6 +29,8 @@ contains
     allocate (run%newton)
     allocate (run%newton%d(run%system%dim, run%system%n), source=zero)
     allocate (run%newton%residual, source=run%newton%d)
+    if (run%plan%contact .and. any(run%model%controls%frame == [character(5) :: '', 'MID'])) &
+        allocate (run%contact%half_motion, source=run%newton%d)
     run%system%force_rule = force_rule_t(kind=run%model%controls%force, &
         before=one - run%scheme%stage(1)%c_k, now=run%scheme%stage(1)%c_k)
   end subroutine make_newton
@@ -120,6 +122,7 @@ contains
     free = run%b_interface
     call run%solver%solve_schur(free)
     if (run%plan%contact) then
+      if (allocated(run%contact%half_motion)) run%contact%half_motion = half*run%x
       run%x_interface = run%x(:, run%contact%interface_node) + free
       call add_contact(run, acting, status)
       if (.not. acting) run%x_interface = free
