@@ -2,7 +2,9 @@
 !> Blocks of elements at finite deformation: their forces, tangents and energies on the nodes.
 module assembly_solid
   use assembly_blocks, only: element_block_t
+  use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one
+  use base_strings, only: to_text
   use element_base, only: most_nodes
   use linalg_graph, only: graph_t, block_matrix_t
   use model_data, only: model_t
@@ -11,7 +13,7 @@ module assembly_solid
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
-      add_solid_tangents, add_solid_energy, smallest_stretch
+      add_solid_tangents, add_solid_energy, smallest_stretch, exchange_solids
 
 contains
 
@@ -135,5 +137,22 @@ contains
       end do
     end do
   end subroutine smallest_stretch
+
+  !> Saves to or restores from the archive the histories of the points.
+  subroutine exchange_solids(archive, solid)
+    type(archive_t), intent(inout) :: archive
+    type(solid_t), intent(inout) :: solid(:)
+    real(wp), allocatable :: flat(:, :)
+    integer :: b
+    do b = 1, size(solid)
+      if (solid(b)%n == 0) cycle
+      if (solid(b)%material%states == 0) cycle
+      associate (history => solid(b)%history)
+        flat = reshape(history, [size(history, 1)*size(history, 2), size(history, 3)])
+        call archive%exchange('history.'//to_text(b), flat)
+        history = reshape(flat, shape(history))
+      end associate
+    end do
+  end subroutine exchange_solids
 
 end module assembly_solid

@@ -105,6 +105,10 @@ contains
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       if (allocated(run%rigid) .and. stage == 1 .and. .not. allocated(run%shift)) &
           call find_turns(run, stage, t1, acting, status)
+      if (allocated(run%newton) .and. failed(status)) then
+        call add_place(status, moment(run))    ! no solution: the state stays as it was
+        return
+      end if
       call run%timers%enter(phase_update)
       if (run%plan%damping) call keep_damping(run, stage)
       call run%scheme%update(stage, run%x, run%state)
@@ -456,6 +460,7 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     if (abs(run%ledger%residual) > open_balance) run%open_balances = run%open_balances + 1
+    if (allocated(run%newton) .and. run%step%is_static) return    ! mean forces of load steps
     if (.not. run%ledger%growth > run%model%controls%growth) return
     if (run%ledger%growth*run%ledger%largest <= run%least_energy) return
     run%ledger%growths = run%ledger%growths + 1

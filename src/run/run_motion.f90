@@ -13,7 +13,8 @@ module run_motion
   use run_static, only: add_shift
   implicit none
   private
-  public :: make_motions, activate_motions, hold_active, impose_motions, restore_motions, &
+  public :: make_motions, activate_motions, hold_active, find_given, impose_motions, &
+      restore_motions, &
       start_reactions, keep_right_side, find_reactions, find_smooth_reactions, reaction_work
 
 contains
@@ -34,14 +35,19 @@ contains
       is_held(run%model%motion(k)%direction, run%model%motion(k)%node) = .true.
     end do
     if (run%plan%motions) then
-      call columns_of_nodes(run%system, any(is_held, dim=1), run%motion_part)
+      if (.not. allocated(run%newton)) call columns_of_nodes(run%system, &
+          any(is_held, dim=1), run%motion_part)
       allocate (run%given(d, n), run%active_motion(size(run%model%motion)))
       run%given = zero
       run%active_motion = .false.
       call activate_motions(run, run%scheme%h, changed)
     end if
     is_held = is_held .or. run%model%fixed
-    call rows_of_nodes(run%system, any(is_held, dim=1), run%reaction_part)
+    if (allocated(run%newton)) then
+      allocate (run%reaction_part%row(0))
+    else
+      call rows_of_nodes(run%system, any(is_held, dim=1), run%reaction_part)
+    end if
     run%reaction_dof = list_dofs(is_held)
     allocate (run%b_held(d, size(run%reaction_part%row)))
   end subroutine make_motions
@@ -87,8 +93,8 @@ contains
     acts = acts .and. t1 <= motion%death + slack*h
   end function acts
 
-  !> b = b - A x_given on free dofs; on held ones what makes the solver give x_given.
-  subroutine impose_motions(run, stage, t1)
+  !> run%given: the unknown x of the stage on held dofs.
+  subroutine find_given(run, stage, t1)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: stage
     real(wp), intent(in) :: t1
@@ -108,6 +114,15 @@ contains
         end do
       end associate
     end do
+  end subroutine find_given
+
+  !> b = b - A x_given on free dofs; on held ones what makes the solver give x_given.
+  subroutine impose_motions(run, stage, t1)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    integer :: k, m
+    call find_given(run, stage, t1)
     call subtract_product(run, stage, run%motion_part, run%given, run%b)
     call clear_fixed(run%system, run%b)
     do k = 1, size(run%model%motion)
@@ -180,10 +195,14 @@ contains
     real(wp), intent(in) :: x(:, :)
     integer :: k
     associate (part => run%reaction_part, factor => run%scheme%stage(stage)%rule%factor)
-      do k = 1, size(part%row)
-        run%b(:, part%row(k)) = run%b_held(:, k)
-      end do
-      call subtract_product(run, stage, part, x, run%b)
+      if (allocated(run%newton)) then
+        run%b = run%newton%residual
+      else
+        do k = 1, size(part%row)
+          run%b(:, part%row(k)) = run%b_held(:, k)
+        end do
+        call subtract_product(run, stage, part, x, run%b)
+      end if
       call subtract_contact(run, -factor, run%b)
       do k = 1, size(run%reaction_dof, 2)
         associate (d => run%reaction_dof(1, k), i => run%reaction_dof(2, k))

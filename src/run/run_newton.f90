@@ -6,20 +6,24 @@
 !> nothing of contact is linearised; the factor of A is that of the start of the step as long as
 !> it serves, for an old A costs passes and no accuracy.
 module run_newton
-  use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, smallest_stretch
+  use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, &
+      smallest_stretch, exchange_solids
   use assembly_system, only: clear_fixed, multiply_mass
+  use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use base_timers, only: phase_product, phase_solve
   use run_data, only: run_t
   use run_operator, only: factor_matrix
-  use solid_block, only: force_rule_t
+  use run_motion, only: find_given, restore_motions
+  use run_static, only: add_shift
+  use solid_block, only: force_rule_t, force_ends
   use run_stage, only: add_contact, weigh_loads
   use time_ledger, only: find_strain_energies
   implicit none
   private
-  public :: make_newton, solve_newton, close_newton
+  public :: make_newton, solve_newton, close_newton, exchange_newton
 
 contains
 
@@ -50,7 +54,12 @@ contains
     call run%timers%enter(phase_product)
     call begin_solids(run%system%solid, run%state%u)
     run%x = run%scheme%h*run%state%v
-    if (run%system%any_fixed) call clear_fixed(run%system, run%x)
+    if (run%plan%motions) then
+      call find_given(run, stage, t1)
+      call restore_motions(run)
+    else if (run%system%any_fixed) then
+      call clear_fixed(run%system, run%x)
+    end if
     run%newton%steps = run%newton%steps + 1
     last = huge(one)
     do pass = 1, run%newton%most_passes
@@ -66,6 +75,7 @@ contains
       run%newton%passes = run%newton%passes + 1
       run%newton%worst = max(run%newton%worst, pass)
     end do
+    call count_work(run)
     if (.not. is_done) call fail(status, status_numerical, "Newton's method has not converged "// &
         'in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
         to_text(change), hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
@@ -83,9 +93,24 @@ contains
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_solid_force(run%system%solid, run%system%force_rule, one, run%state%u, run%x, &
         run%b, run%newton%work)
+    if (allocated(run%shift)) call add_shift(run%shift, run%x_pass - run%x, run%b)
     run%newton%residual = run%b
     if (run%system%any_fixed) call clear_fixed(run%system, run%b)
   end subroutine find_residual
+
+  !> The work of the internal force that the balance of the scheme counts: of its ends weighted
+  !> as the loads are.
+  subroutine count_work(run)
+    type(run_t), intent(inout) :: run
+    type(force_rule_t) :: counted
+    associate (rule => run%system%force_rule, weight => run%scheme%load_work_weight)
+      if (rule%kind /= force_ends) return
+      if (.not. abs(rule%now - weight(2)) > zero) return
+      counted = force_rule_t(kind=force_ends, before=weight(1), now=weight(2))
+      call subtract_solid_force(run%system%solid, counted, one, run%state%u, run%x, &
+          run%newton%d, run%newton%work)
+    end associate
+  end subroutine count_work
 
   !> Is x the solution: did the last pass move little? Or does round-off let nothing better be?
   subroutine judge(run, change, last, pass, is_done)
@@ -170,5 +195,19 @@ contains
     run%newton%energy = energy
     call commit_solids(run%system%solid, run%state%u)
   end subroutine close_newton
+
+  !> Saves to or restores from the archive what a step changes: histories, counts.
+  subroutine exchange_newton(archive, run)
+    type(archive_t), intent(inout) :: archive
+    type(run_t), intent(inout) :: run
+    integer :: counts(3)
+    counts = [run%newton%passes, run%newton%steps, run%newton%worst]
+    call archive%exchange('newton.counts', counts)
+    run%newton%passes = counts(1)
+    run%newton%steps = counts(2)
+    run%newton%worst = counts(3)
+    call archive%exchange('newton.energy', run%newton%energy)
+    call exchange_solids(archive, run%system%solid)
+  end subroutine exchange_newton
 
 end module run_newton

@@ -16,6 +16,7 @@ module run_step
   use run_data, only: run_t, step_control_t
   use run_motion, only: hold_active
   use run_damping, only: exchange_damping
+  use run_newton, only: exchange_newton
   use run_operator, only: factor_matrix
   use time_ledger, only: exchange_ledger
   implicit none
@@ -263,6 +264,7 @@ contains
     if (allocated(run%smooth_reaction)) &
         call archive%exchange('reaction.smooth', run%smooth_reaction)
     if (run%plan%damping) call exchange_damping(archive, run)
+    if (allocated(run%newton)) call exchange_newton(archive, run)
     if (allocated(run%unbalanced)) call archive%exchange('static.unbalanced', run%unbalanced)
     call archive%exchange('run.largest_motion', run%largest_motion)
   end subroutine exchange_moment
