@@ -45,22 +45,49 @@ contains
     if (is_same) call renew_gaps(contact, is_same)
     if (.not. is_same) call make_rows(contact)
     if (.not. allocated(contact%half_motion)) return
-    call take_gaps_back(contact, contact%rows)
-    call take_gaps_back(contact, contact%spare)
+    call take_gaps_back(contact, model%x, u, contact%rows)
+    call take_gaps_back(contact, model%x, u, contact%spare)
   end subroutine find_rows
 
   !> Gaps of rows whose frames are those of the middle of the step: at its start, in that frame.
-  pure subroutine take_gaps_back(contact, rows)
+  pure subroutine take_gaps_back(contact, x, u, rows)
     type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: x(:, :), u(:, :)
     type(rows_t), intent(inout) :: rows
     real(wp) :: moved(most_components)
     integer :: a
     do a = 1, rows%n
       if (contact%pairing(rows%key(1, a))%item%is_wall) cycle
+      if (contact%dim == 2 .and. rows%first(a + 1) - rows%first(a) == 3) &
+          call stand_before(contact, x, u, rows, a)
       moved = relative_displacement(rows, a, rows%point, contact%half_motion)
       rows%gap(a) = rows%gap(a) - moved(1)
     end do
   end subroutine take_gaps_back
+
+  !> Row a of a node against an edge: where smooth edges share a normal, the point of the edge is
+  !> moved so that the node stands before it along that normal in the middle of the step; their
+  !> forces then have no moment.
+  pure subroutine stand_before(contact, x, u, rows, a)
+    type(contact_t), intent(in) :: contact
+    real(wp), intent(in) :: x(:, :), u(:, :)
+    type(rows_t), intent(inout) :: rows
+    integer, intent(in) :: a
+    real(wp) :: p(2, 3), edge(2), normal(2), apart(2), along
+    integer :: k, i
+    do k = 1, 3
+      i = rows%point(rows%first(a) + k - 1)
+      p(:, k) = x(:, i) + (u(:, i) + contact%half_motion(:, i))
+    end do
+    i = rows%first(a)
+    edge = p(:, 3) - p(:, 2)
+    apart = (p(:, 1) - p(:, 2)) + rows%weight(i + 2)*edge
+    normal = rows%normal(:2, a)
+    along = (normal(1)*apart(2) - normal(2)*apart(1))/(normal(1)*edge(2) - normal(2)*edge(1))
+    if (abs(along) > 1.0e-2_wp) return      ! no edge that the node is before
+    rows%weight(i + 1:i + 2) = rows%weight(i + 1:i + 2) + [along, -along]
+    rows%gap(a) = rows%gap(a) - along*dot_product(normal, edge)
+  end subroutine stand_before
 
   !> The rows of the last step with new gaps, where that is all that has changed.
   subroutine renew_gaps(contact, is_same)
