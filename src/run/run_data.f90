@@ -124,6 +124,7 @@ module run_data
     real(wp), allocatable :: d(:, :)         !< (dim, n) correction of x [L]
     !> (dim, n) what is left of the balance at x but for contact, before held dofs are cleared [F]
     real(wp), allocatable :: residual(:, :)
+    logical :: is_explicit = .false.         !< nothing to iterate: residual is f(U0)
     real(wp) :: work = zero                  !< of the internal force in the step [F L]
     real(wp) :: energy = zero                !< strain energy at the end of the last step [F L]
     integer :: most_passes = 30

@@ -25,7 +25,7 @@ module run_loop
   use run_restart, only: keep_restart, how_to_go_on
   use run_operator, only: factor_matrix, use_operator
   use run_setup, only: start_dynamics
-  use run_newton, only: solve_newton, close_newton
+  use run_newton, only: iterates, solve_newton, close_newton
   use run_rigid, only: begin_rigid, renew_levers, carry, set_true_motion, add_rigid_works
   use run_stage, only: solve_stage
   use run_static, only: check_pass, unbalanced_work
@@ -105,7 +105,7 @@ contains
       if (allocated(run%shift)) call find_equilibrium(run, stage, t1, acting, status)
       if (allocated(run%rigid) .and. stage == 1 .and. .not. allocated(run%shift)) &
           call find_turns(run, stage, t1, acting, status)
-      if (allocated(run%newton) .and. failed(status)) then
+      if (iterates(run) .and. failed(status)) then
         call add_place(status, moment(run))    ! no solution: the state stays as it was
         return
       end if
@@ -214,7 +214,7 @@ contains
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
     logical :: again
-    if (allocated(run%newton)) then
+    if (iterates(run)) then
       call solve_newton(run, stage, t1, acting, status)
     else
       call solve_stage(run, stage, t1, acting, status)
@@ -223,7 +223,7 @@ contains
     if (.not. run%plan%contact) return
     call look_back(run, stage, again, status)
     if (.not. again) return
-    if (allocated(run%newton)) then
+    if (iterates(run)) then
       call solve_newton(run, stage, t1, acting, status)
     else
       call solve_stage(run, stage, t1, acting, status)

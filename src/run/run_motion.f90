@@ -182,6 +182,7 @@ contains
   subroutine keep_right_side(run)
     type(run_t), intent(inout) :: run
     integer :: k
+    if (allocated(run%newton)) run%newton%d = run%b
     do k = 1, size(run%reaction_part%row)
       run%b_held(:, k) = run%b(:, run%reaction_part%row(k))
     end do
@@ -196,7 +197,7 @@ contains
     integer :: k
     associate (part => run%reaction_part, factor => run%scheme%stage(stage)%rule%factor)
       if (allocated(run%newton)) then
-        run%b = run%newton%residual
+        call take_residual(run, stage, x)
       else
         do k = 1, size(part%row)
           run%b(:, part%row(k)) = run%b_held(:, k)
@@ -248,5 +249,18 @@ contains
       end associate
     end do
   end function reaction_work
+
+  !> run%b: what is left of the balance of all nodes but for contact, at finite deformation.
+  subroutine take_residual(run, stage, x)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: x(:, :)
+    if (run%newton%is_explicit) then
+      run%b = run%newton%d
+      call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, x, run%b)
+    else
+      run%b = run%newton%residual
+    end if
+  end subroutine take_residual
 
 end module run_motion

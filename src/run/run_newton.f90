@@ -23,7 +23,7 @@ module run_newton
   use time_ledger, only: find_strain_energies
   implicit none
   private
-  public :: make_newton, solve_newton, close_newton, exchange_newton
+  public :: make_newton, iterates, solve_newton, close_newton, exchange_newton
 
 contains
 
@@ -35,9 +35,17 @@ contains
     allocate (run%newton%residual, source=run%newton%d)
     if (run%plan%contact .and. any(run%model%controls%frame == [character(5) :: '', 'MID'])) &
         allocate (run%contact%half_motion, source=run%newton%d)
+    run%newton%is_explicit = run%model%controls%is_explicit
     run%system%force_rule = force_rule_t(kind=run%model%controls%force, &
         before=one - run%scheme%stage(1)%c_k, now=run%scheme%stage(1)%c_k)
   end subroutine make_newton
+
+  !> Does Newton's method find the motion of a step?
+  pure logical function iterates(run)
+    type(run_t), intent(in) :: run
+    iterates = .false.
+    if (allocated(run%newton)) iterates = .not. run%newton%is_explicit
+  end function iterates
 
   !> The motion x of a stage, with contact.
   subroutine solve_newton(run, stage, t1, acting, status)
@@ -188,6 +196,8 @@ contains
   subroutine close_newton(run)
     type(run_t), intent(inout) :: run
     real(wp) :: energy
+    if (run%newton%is_explicit) run%newton%work = run%scheme%stage(1)%force_weight* &
+        sum(run%newton%residual*run%scheme%conjugate)
     call find_strain_energies(run%model, run%system, run%state, run%ledger)
     energy = sum(run%ledger%part_internal)
     run%ledger%algorithmic = run%ledger%algorithmic &

@@ -75,6 +75,12 @@ contains
     integer, intent(in) :: stage
     associate (s => run%scheme%stage(stage))
       if (.not. s%force_weight > zero) return
+      if (allocated(run%newton)) then
+        run%newton%residual = zero
+        call subtract_internal_force(run%system, -one, run%state%u, run%newton%residual)
+        run%b = run%b - s%force_weight*run%newton%residual
+        return
+      end if
       if (abs(s%force_lead) > zero) then
         run%x = run%state%u + s%force_lead*run%state%v
         call subtract_internal_force(run%system, s%force_weight, run%x, run%b)

@@ -69,9 +69,10 @@ contains
     type(controls_t), intent(in) :: controls
     integer, intent(in) :: r
     if (controls%is_static) return
-    if (all(controls%scheme /= [character(10) :: 'THETA', 'NEWMARK'])) call deck%complain(r, 'NSOLVR', 'scheme '// &
+    if (.not. (any(controls%scheme == [character(10) :: 'THETA', 'NEWMARK']) .or. &
+        controls%scheme == 'PAOLI' .and. controls%is_explicit)) call deck%complain(r, 'NSOLVR', 'scheme '// &
         trim(controls%scheme)//' of *BIPACT_TIME is not available at finite deformation', &
-        'take SCHEME THETA, or NEWMARK for comparison')
+        'take SCHEME THETA, NEWMARK for comparison, or PAOLI with PBETA 0')
     if (controls%redistribute) call deck%complain(deck%next('BIPACT_MASS', 1, 0), 'REDIST', &
         'massless contact nodes are not available at finite deformation')
     if (controls%mass == 'DISPERSION') call deck%complain(deck%next('BIPACT_MASS', 1, 0), &

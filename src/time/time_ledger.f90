@@ -199,6 +199,12 @@ contains
       call strain_energies(system, model%mesh%part, state%u, ledger%part_internal)
       return
     end if
+    if (allocated(system%solid)) then
+      call strain_energies(system, model%mesh%part, state%u, ledger%part_internal)
+      call strain_energies(system, model%mesh%part, state%u - state%du, rest)
+      ledger%part_internal = half*(ledger%part_internal + rest)
+      return
+    end if
     middle = state%u - half*state%du
     call strain_energies(system, model%mesh%part, middle, ledger%part_internal)
     if (.not. abs(ledger%staggered%share) > zero) return

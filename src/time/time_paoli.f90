@@ -142,6 +142,7 @@ contains
     type(system_t), intent(in) :: system
     type(state_t), intent(in) :: state
     paoli_dissipation = zero
+    if (allocated(system%solid)) return    ! counted from forces and energies, not from K
     if (is_first(this)) then
       paoli_dissipation = half*this%h*sum(this%v_start*this%ku) &
           - half*this%beta*this%h**2*sum(this%v_start*this%kv) &
