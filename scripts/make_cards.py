@@ -34,6 +34,14 @@ OTHER_NAMES = {
     "CONTACT_SINGLE_SURFACE",
 }
 
+# Laws of finite strain: no deck with one of these runs as long as NSOLVR 12 is not available.
+UNSHOWN = {
+    "MAT_BLATZ-KO_RUBBER", "MAT_007", "MAT_BLATZ-KO_FOAM", "MAT_038",
+    "MAT_MOONEY-RIVLIN_RUBBER", "MAT_027", "MAT_OGDEN_RUBBER", "MAT_077_O",
+    "MAT_HYPERELASTIC_RUBBER", "MAT_077_H", "MAT_PLASTIC_KINEMATIC", "MAT_003",
+    "MAT_PIECEWISE_LINEAR_PLASTICITY", "MAT_024",
+}
+
 # keyword: its cards, each a dictionary of the fields that are not left blank
 SCENE = (
     [
@@ -384,7 +392,7 @@ def deck(program, in_space):
     """The whole text."""
     found = layouts(program)
     shown = {name for name, _ in SCENE + IN_SPACE}
-    missing = sorted(set(found) - shown - OTHER_NAMES)
+    missing = sorted(set(found) - shown - OTHER_NAMES - UNSHOWN)
     if missing:
         raise SystemExit("make_cards.py does not show: " + " ".join(missing))
     out = HEAD_IN_SPACE[:] if in_space else [

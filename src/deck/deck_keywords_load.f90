@@ -243,7 +243,7 @@ contains
 
   subroutine add_curve(table)
     type(table_t), intent(inout) :: table
-    call add_keyword(table, 'DEFINE_CURVE', 'a function of time by points', title=.true., &
+    call add_keyword(table, 'DEFINE_CURVE', 'a function of time, or of plastic strain, by points', title=.true., &
         required=2, repeat_from=2)
     call add_card(table)
     call add_field(table, 'LCID', 'I10 req >0', 'curve number')

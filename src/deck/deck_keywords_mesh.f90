@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keywords of the mesh: nodes, elements, parts, sections, materials, sets.
+!> Keywords of the mesh: nodes, elements, parts, sections, sets.
 module deck_keywords_mesh
   use base_strings, only: to_text
+  use deck_keywords_material, only: add_materials
   use deck_table, only: table_t, add_keyword, add_alias, add_card, add_field
   implicit none
   private
@@ -218,51 +219,6 @@ contains
     call add_field(table, 'VRY', 'R10 fixed')
     call add_field(table, 'VRZ', 'R10 =0.0 [1/T]', 'initial angular velocity')
   end subroutine add_inertia
-
-  subroutine add_rigid_material(table)
-    type(table_t), intent(inout) :: table
-    integer :: k
-    call add_keyword(table, 'MAT_RIGID', 'rigid parts', title=.true., required=3)
-    call add_card(table)
-    call add_field(table, 'MID', 'I10 req >0', 'material number')
-    call add_field(table, 'RO', 'R10 req [M/L3] >0', 'density')
-    call add_field(table, 'E', 'R10 note [F/L2]', 'of penalty contact')
-    call add_field(table, 'PR', 'R10 note', 'of penalty contact')
-    call add_field(table, 'N', 'R10 fixed')
-    call add_field(table, 'COUPLE', 'R10 fixed')
-    call add_field(table, 'M', 'R10 fixed')
-    call add_field(table, 'ALIAS', 'R10 fixed')
-    call add_card(table)
-    call add_field(table, 'CMO', 'R10 =0.0 >=0 <=1', '1: CON1 and CON2 hold the centre of mass')
-    call add_field(table, 'CON1', 'I10 =0 >=0 <=7', &
-        'held: 1 x, 2 y, 3 z, 4 x y, 5 y z, 6 z x, 7 x y z')
-    call add_field(table, 'CON2', 'I10 =0 >=0 <=7', &
-        'held rotations, as CON1; that about z is held by 3, 5, 6, 7')
-    call add_card(table)
-    call add_field(table, 'LCO/A1', 'R10 fixed', 'local axes of output')
-    do k = 2, 3
-      call add_field(table, 'A'//achar(48 + k), 'R10 fixed')
-    end do
-    do k = 1, 3
-      call add_field(table, 'V'//achar(48 + k), 'R10 fixed')
-    end do
-    call add_alias(table, 'MAT_020')
-  end subroutine add_rigid_material
-
-  subroutine add_materials(table)
-    type(table_t), intent(inout) :: table
-    call add_rigid_material(table)
-    call add_keyword(table, 'MAT_ELASTIC', 'linear elastic material', title=.true., required=1)
-    call add_card(table)
-    call add_field(table, 'MID', 'I10 req >0', 'material number')
-    call add_field(table, 'RO', 'R10 req [M/L3] >0', 'density')
-    call add_field(table, 'E', 'R10 req [F/L2] >0', 'Young modulus')
-    call add_field(table, 'PR', 'R10 =0.0 >-1 <0.5', 'Poisson ratio')
-    call add_field(table, 'DA', 'R10 fixed')
-    call add_field(table, 'DB', 'R10 fixed')
-    call add_field(table, 'K', 'R10 fixed', 'of the fluid option')
-    call add_alias(table, 'MAT_001')
-  end subroutine add_materials
 
   subroutine add_set_head(table)
     type(table_t), intent(inout) :: table

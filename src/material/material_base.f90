@@ -1,12 +1,20 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a material offers to an element: plain numbers, no mesh.
 module material_base
-  use base_kinds, only: wp
+  use base_kinds, only: wp, i8
   implicit none
   private
   integer, parameter, public :: plane_stress = 12
   integer, parameter, public :: plane_strain = 13
+  integer, parameter, public :: axisymmetric = 15
   integer, parameter, public :: in_space = 3
+
+  !> What a law gives where it has no value: a quiet NaN, made from its bits, for an invalid
+  !> operation would trap. It may be copied and calculated with, but a comparison would trap
+  !> too: ask has_value first.
+  integer(i8), parameter :: exponent_bits = 9218868437227405312_i8
+  real(wp), parameter, public :: no_value = transfer(9221120237041090560_i8, 1.0_wp)
+  public :: has_value, leave_undefined
 
   type, abstract, public :: material_t
     integer :: id = 0
@@ -60,8 +68,9 @@ contains
   !> The law at finite strain, in space: from Green's strain e = (E11, E22, E33, 2 E12, 2 E23, 2
   !> E31) and the history of the last accepted step, old (states): second Piola-Kirchhoff stress
   !> s = (S11, S22, S33, S12, S23, S31) [F/L2], moduli d = ds/de (6, 6) [F/L2] where they are
-  !> asked for, strain energy per reference volume [F/L2], and the history new. NaN where the
-  !> law has no value (det C <= 0). Laws with is_finite have their own.
+  !> asked for, strain energy per reference volume [F/L2], and the history new. Where the law
+  !> has no value (det C <= 0, a stretch that overflows) s, d and energy are no_value, a quiet
+  !> NaN, and new = old. Laws with is_finite have their own.
   pure subroutine no_response(this, e, old, with_moduli, s, d, energy, new)
     class(material_t), intent(in) :: this
     real(wp), intent(in) :: e(6), old(:)
@@ -72,5 +81,19 @@ contains
     energy = 0.0_wp
     new = old
   end subroutine no_response
+
+  !> Is a number finite? By its bits: no operation on it that could trap.
+  elemental logical function has_value(x)
+    real(wp), intent(in) :: x
+    has_value = iand(transfer(x, 0_i8), exponent_bits) /= exponent_bits
+  end function has_value
+
+  !> The answer of a law where it has no value.
+  pure subroutine leave_undefined(s, d, energy)
+    real(wp), intent(out) :: s(:), d(:, :), energy
+    s = no_value
+    d = no_value
+    energy = no_value
+  end subroutine leave_undefined
 
 end module material_base

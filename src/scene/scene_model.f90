@@ -13,12 +13,13 @@ module scene_model
   use scene_damping, only: read_damping
   use scene_ids, only: maps_t
   use scene_loads, only: read_curves, read_loads
+  use scene_materials, only: read_materials
   use scene_mesh, only: read_nodes, read_elements, check_mesh
   use scene_motion, only: read_supports, read_motions, read_initial_velocities
   use scene_output, only: read_requests
   use scene_storage, only: read_storage
   use scene_mass, only: check_mass
-  use scene_parts, only: read_materials, read_parts
+  use scene_parts, only: read_parts
   use scene_rigid, only: read_rigid_parts
   use scene_rigid_space, only: read_rigid_in_space
   use scene_sets, only: read_sets
@@ -44,6 +45,7 @@ contains
       call read_controls(deck, model)
       call read_solver_options(deck, model%controls, cone, solver)
       call read_nodes(deck, model, maps)
+      call read_curves(deck, model, maps)
       call read_materials(deck, model, maps)
       call read_parts(deck, model, maps)
       call check_laws(deck, model)
@@ -55,7 +57,6 @@ contains
     end if
     if (deck%problems%count == 0) then
       call read_sets(deck, model, maps)
-      call read_curves(deck, model, maps)
       call read_supports(deck, model, maps)
       call read_loads(deck, model, maps)
       call read_damping(deck, model, maps)

@@ -1,62 +1,19 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Materials, sections and parts: from cards to the model.
+!> Sections and parts: from cards to the model.
 module scene_parts
   use base_kinds, only: wp, zero
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use deck_problems, only: add_warning, add_note
+  use deck_problems, only: add_note
   use material_base, only: plane_stress, plane_strain, in_space
-  use material_registry, only: make_material, material_keywords, max_constants
   use model_data, only: model_t, section_t
   use scene_ids, only: maps_t, make_id_map, records_of
   use scene_solids, only: form_of
   implicit none
   private
-  public :: read_materials, read_parts
+  public :: read_parts
 
 contains
-
-  !> Every *MAT_... block becomes a material.
-  subroutine read_materials(deck, model, maps)
-    type(deck_t), intent(inout) :: deck
-    type(model_t), intent(inout) :: model
-    type(maps_t), intent(inout) :: maps
-    integer, allocatable :: ids(:), record(:), more(:), law(:)
-    integer :: k
-    allocate (record(0), law(0))
-    do k = 1, size(material_keywords)
-      call records_of(deck, trim(material_keywords(k)), 1, more)
-      record = [record, more]
-      law = [law, spread(k, 1, size(more))]
-    end do
-    allocate (ids(size(record)), model%material(size(record)))
-    do k = 1, size(record)
-      ids(k) = deck%integer(record(k), 'MID')
-      call make_material(trim(material_keywords(law(k))), ids(k), &
-          constants_of(deck, record(k)), model%material(k)%item)
-      if (deck%real(record(k), 'PR') > 0.49_wp .and. .not. deck%in_space) &
-          call add_warning(deck%problems, 'poisson', deck%place(record(k))// &
-          ': PR > 0.49 of material '//to_text(ids(k))//': fully integrated elements '// &
-          'lock; lower PR, or refine')
-    end do
-    call make_id_map(deck, 'material', 'MID', ids, record, maps%material)
-  end subroutine read_materials
-
-  !> The numbers of a card after its first field.
-  pure function constants_of(deck, record) result(constants)
-    type(deck_t), intent(in) :: deck
-    integer, intent(in) :: record
-    real(wp) :: constants(max_constants)
-    integer :: m
-    constants = zero
-    associate (r => deck%record(record))
-      associate (card => deck%table%keyword(deck%block(r%block)%keyword)%card(r%card))
-        do m = 2, card%fields
-          constants(m - 1) = deck%number_at(record, m)
-        end do
-      end associate
-    end associate
-  end function constants_of
 
   !> *SECTION_SHELL, *SECTION_SOLID and *PART; materials must have been read.
   subroutine read_parts(deck, model, maps)

@@ -20,6 +20,13 @@ EXPLICIT = "PAOLI,,,,,,0.0"
 PARAMETER = "Rtend           0.01Rdt            1e-03"
 RIGID = ("*MAT_ELASTIC\n" + MATERIAL, "*MAT_RIGID\n         1     0.001\n\n")
 HELD = ("*MAT_ELASTIC\n" + MATERIAL, "*MAT_RIGID\n         1     0.001\n       1.0         1\n")
+
+
+def law(name, fields, more="", title=""):
+    """The material of base.k and another one in its place."""
+    return "*MAT_ELASTIC\n" + MATERIAL, "*MAT_" + name + "\n" + title + MATERIAL[:20] + fields + more
+
+
 MOTION = "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,1,0,1\n"
 BASE_FAULTS = [
     # the frame
@@ -27,7 +34,8 @@ BASE_FAULTS = [
     ("unknown option", "*CONTROL_TERMINATION", "*CONTROL_TERMINATION_FOO"),
     ("nonsense keyword", "*END", "*XYZZY_PLUGH\n*END"),
     ("keyword of a refused family misspelt", "*SET_NODE_LIST", "*SET_NODE_LSIT"),
-    ("refused keyword", "*END", "*MAT_BLATZ-KO_RUBBER\n*END"),
+    ("refused keyword", "*END", "*MAT_JOHNSON_COOK\n*END"),
+    ("refused option of a law", "*END", "*MAT_024_LOG_INTERPOLATION\n*END"),
     ("refused family", "*END", "*CONSTRAINED_JOINT_REVOLUTE\n*END"),
     ("three-dimensional contact", "*END", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,1,3,3\n*END"),
     ("a solid in a plane deck", "*END", "*ELEMENT_SOLID\n2,1,1,2,3,4,1,2,3,4\n*END"),
@@ -545,6 +553,40 @@ BASE_FAULTS = [
     ),
     ("explicit step of rigid parts", *RIGID, "     THETA       0.5", "CDLAGRANGE", "         1       &dt", "         1"),
     ("local constraints", *RIGID, "*MAT_RIGID\n         1     0.001\n", "*MAT_RIGID\n         1     0.001\n      -1.0"),
+    # laws at finite strain
+    ("rubber in a linear deck", *law("BLATZ-KO_RUBBER", "    1000.0")),
+    ("foam in a linear deck by its number", *law("038_TITLE", "    1000.0", title="foam\n")),
+    ("a plastic law in a linear deck", *law("PLASTIC_KINEMATIC", "    1000.0       0.3      10.0",
+                                            "\n       0.0       0.0    1.0E20")),
+    ("a law of finite strain with NSOLVR 12", "*END", "*CONTROL_IMPLICIT_SOLUTION\n        12\n*END",
+     *law("BLATZ-KO_FOAM", "    1000.0")),
+    ("a reference geometry", *law("007", "    1000.0       1.0")),
+    ("rubber without a modulus", *law("BLATZ-KO_RUBBER", "")),
+    ("Mooney and Rivlin with a Poisson ratio too small",
+     *law("MOONEY-RIVLIN_RUBBER", "       0.4     400.0     100.0")),
+    ("Mooney and Rivlin without stiffness", *law("027", "     0.495     100.0    -100.0")),
+    ("a fit of Mooney and Rivlin", *law("027", "     0.495     100.0", "\n      50.0")),
+    ("a term of Ogden without exponent", *law("OGDEN_RUBBER", "     0.495", "\n  1.0,2.0\n  2.0,")),
+    ("Ogden without stiffness", *law("077_O", "     0.495         0         6",
+                                     "\n       1.0\n      -2.0")),
+    ("a fit of Ogden", *law("077_O", "     0.495         2", "\n       1.0\n       2.0")),
+    ("a second invariant", *law("HYPERELASTIC_RUBBER", "     0.495", "\n      10.0       1.0")),
+    ("a tangent modulus above E", *law("003", "    1000.0       0.3      10.0    1000.0")),
+    ("hardening neither kinematic nor isotropic",
+     *law("003", "    1000.0       0.3      10.0     100.0       1.5")),
+    ("rates and failure", *law("PLASTIC_KINEMATIC", "    1000.0       0.3      10.0",
+                               "\n      40.0       5.0      0.75       1.0")),
+    ("rates and failure of a curve", *law("024", "    1000.0       0.3      10.0       0.0       0.5",
+                                          "\n      40.0       5.0")),
+    ("no yield stress", *law("PIECEWISE_LINEAR_PLASTICITY", "    1000.0       0.3")),
+    ("a yield curve that is not there", *law("024", "    1000.0       0.3", "\n,,7,")),
+    ("a yield curve that falls", "*END", CURVE.replace("0.1,1.0", "0.1,0.9") + "*END",
+     *law("024", "    1000.0       0.3", "\n,,1,")),
+    ("yield points that do not begin at 0",
+     *law("024", "    1000.0       0.3", "\n\n0.01,0.1\n10.0,20.0")),
+    ("yield points out of order",
+     *law("024", "    1000.0       0.3", "\n\n0.0,0.1,0.05\n10.0,20.0,30.0")),
+    ("yield stresses that fall", *law("024", "    1000.0       0.3", "\n\n0.0,0.1\n10.0,5.0")),
 ]
 
 CONTACT = "        11        12"
