@@ -5,8 +5,9 @@ module assembly_solid
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one
   use base_strings, only: to_text
-  use element_base, only: most_nodes
+  use element_base, only: element_t, most_nodes
   use linalg_graph, only: graph_t, block_matrix_t
+  use material_base, only: material_t, plane_stress
   use model_data, only: model_t
   use solid_block, only: solid_t, force_rule_t, make_solid, begin_step, commit_step, &
       element_force, element_tangent, element_energy, smallest_determinant
@@ -27,12 +28,32 @@ contains
     do b = 1, size(block)
       if (block(b)%is_rigid) cycle
       associate (part => model%part(block(b)%part))
-        call make_solid(model%mesh%kind(block(b)%type)%item, &
-            model%material(part%material)%item, part%plane, part%thickness, block(b)%first, &
-            block(b)%node, model%x, solid(b))
+        associate (element => model%mesh%kind(block(b)%type)%item, &
+            material => model%material(part%material)%item)
+          call make_solid(element, material, part%plane, takes_mean(model, element, material, &
+              part%plane), part%thickness, block(b)%first, block(b)%node, model%x, solid(b))
+        end associate
       end associate
     end do
   end subroutine make_solids
+
+  !> Does a part have mean dilatation? Bilinear elements of laws that keep their volume do, where
+  !> QP0 says nothing else; plane stress has no such need.
+  pure logical function takes_mean(model, element, material, plane)
+    type(model_t), intent(in) :: model
+    class(element_t), intent(in) :: element
+    class(material_t), intent(in) :: material
+    integer, intent(in) :: plane
+    takes_mean = .false.
+    if (plane == plane_stress) return
+    select case (element%name)
+    case ('HEX8MEAN')
+      takes_mean = .true.
+    case ('QUAD4', 'HEX8')
+      takes_mean = model%controls%mean_dilatation == 1 .or. &
+          model%controls%mean_dilatation == -1 .and. material%mean_dilatation
+    end select
+  end function takes_mean
 
   !> A step begins at U0 (dim, n).
   pure subroutine begin_solids(solid, u0)

@@ -8,7 +8,7 @@ module material_plane
   use material_tensor, only: log_one_plus, exp_minus_one
   implicit none
   private
-  public :: respond_as
+  public :: respond_as, places_of
 
   !> Places in (E11, E22, E33, 2 E12, 2 E23, 2 E31) of the strains in the plane, of those around
   !> an axis.
@@ -17,6 +17,21 @@ module material_plane
   integer, parameter :: across = 3
 
 contains
+
+  !> Where the strains of an element are among the six in space.
+  pure function places_of(plane) result(place)
+    integer, intent(in) :: plane
+    integer, allocatable :: place(:)
+    integer :: k
+    select case (plane)
+    case (in_space)
+      place = [(k, k=1, 6)]
+    case (axisymmetric)
+      place = around
+    case default
+      place = in_plane
+    end select
+  end function places_of
 
   !> The law of a material (material_base) for the strains e (6 in space, 3 in the plane, 4
   !> around an axis): stress s, moduli d where asked for, energy per reference volume [F/L2],

@@ -198,6 +198,7 @@ module model_data
     integer :: most_halvings = 10       !< of DT0
     logical :: is_finite = .false.      !< finite deformation: NSOLVR 12
     integer :: force = 0                !< FORCE of *BIPACT_KINEMATICS, force_... of solid_block
+    integer :: mean_dilatation = -1     !< QP0: 0 none, 1 all, -1 where the law keeps its volume
     integer :: ledger_every = 0
     integer :: dump_first = 0, dump_last = 0, dump_every = 1  !< steps; 0 = no dump
     real(wp) :: growth = 1.0e-9_wp

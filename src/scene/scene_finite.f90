@@ -47,6 +47,12 @@ contains
     is_theta = controls%scheme == 'THETA' .and. .not. controls%is_static
     controls%force = merge(force_conserving, force_ends, is_theta)
     if (card > 0) then
+      select case (deck%word(card, 'QP0'))
+      case ('0')
+        controls%mean_dilatation = 0
+      case ('1')
+        controls%mean_dilatation = 1
+      end select
       if (deck%is_given(card, 'FORCE') .and. .not. is_theta) call deck%complain(card, &
           'FORCE', 'FORCE is of scheme THETA of *BIPACT_TIME: leave it blank')
       select case (deck%word(card, 'FORCE'))
@@ -68,9 +74,11 @@ contains
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(in) :: controls
     integer, intent(in) :: r
+    logical :: is_built
     if (controls%is_static) return
-    if (.not. (any(controls%scheme == [character(10) :: 'THETA', 'NEWMARK']) .or. &
-        controls%scheme == 'PAOLI' .and. controls%is_explicit)) call deck%complain(r, 'NSOLVR', 'scheme '// &
+    is_built = any(controls%scheme == [character(10) :: 'THETA', 'NEWMARK']) .or. &
+        controls%scheme == 'PAOLI' .and. controls%is_explicit
+    if (.not. is_built) call deck%complain(r, 'NSOLVR', 'scheme '// &
         trim(controls%scheme)//' of *BIPACT_TIME is not available at finite deformation', &
         'take SCHEME THETA, NEWMARK for comparison, or PAOLI with PBETA 0')
     if (controls%redistribute) call deck%complain(deck%next('BIPACT_MASS', 1, 0), 'REDIST', &

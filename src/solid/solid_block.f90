@@ -12,7 +12,8 @@ module solid_block
   use element_base, only: element_t, most_points, strains
   use linalg_dense, only: cross
   use material_base, only: material_t
-  use material_plane, only: respond_as
+  use material_plane, only: respond_as, places_of
+  use solid_mean, only: coupling_t, mean_response
   use solid_points, only: displacement_gradient, green_strain, strain_matrix, &
       add_stress_force, add_material_part, add_geometric_part
   implicit none
@@ -30,6 +31,8 @@ module solid_block
     integer :: first = 0, n = 0              !< its elements: the first in the mesh, how many
     integer :: nodes = 0, dim = 0, points = 0, strains = 0
     integer :: plane = 0
+    logical :: is_mean = .false.             !< mean dilatation
+    integer, allocatable :: place(:)         !< of its strains among the six in space
     class(material_t), allocatable :: material
     integer, allocatable :: node(:, :)       !< (nodes, n)
     real(wp), allocatable :: weight(:, :)    !< (points, n) of the rule, reference volume [L3]
@@ -45,10 +48,11 @@ contains
 
   !> A block of an element type: nodes (nodes, n) of the elements from `first` on, coordinates x
   !> (dim, *) [L], thickness [L] (1 in space).
-  subroutine make_solid(element, material, plane, thickness, first, node, x, solid)
+  subroutine make_solid(element, material, plane, is_mean, thickness, first, node, x, solid)
     class(element_t), intent(in) :: element
     class(material_t), intent(in) :: material
     integer, intent(in) :: plane, first, node(:, :)
+    logical, intent(in) :: is_mean
     real(wp), intent(in) :: thickness, x(:, :)
     type(solid_t), intent(out) :: solid
     real(wp) :: xi(3, most_points), w(most_points), shape(size(node, 1)), det
@@ -60,6 +64,8 @@ contains
     solid%plane = plane
     solid%strains = strains(solid%dim)
     solid%node = node
+    solid%is_mean = is_mean
+    solid%place = places_of(plane)
     allocate (solid%material, source=material)
     call element%stiffness_rule(x(:, node(:, 1)), solid%points, xi, w)
     allocate (solid%weight(solid%points, solid%n), solid%energy(solid%n), &
@@ -91,20 +97,16 @@ contains
   pure subroutine commit_step(solid, u1)
     type(solid_t), intent(inout) :: solid
     real(wp), intent(in) :: u1(:, :)
-    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim), e(solid%strains)
-    real(wp) :: s(solid%strains), d(solid%strains, solid%strains), density
-    real(wp) :: new(solid%material%states)
-    integer :: g, k
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim, solid%points)
+    real(wp) :: s(solid%strains, solid%points), energy
+    real(wp) :: d(solid%strains, solid%strains, solid%points)
+    real(wp) :: new(solid%material%states, solid%points)
+    integer :: k
     if (solid%material%states == 0) return
     do k = 1, solid%n
       call relative(solid, k, u1, a)
-      do g = 1, solid%points
-        call displacement_gradient(a, solid%slope(:, :, g, k), h)
-        call green_strain(h, e)
-        call respond_as(solid%material, solid%plane, e, solid%history(:, g, k), .false., s, &
-            d, density, new)
-        solid%history(:, g, k) = new
-      end do
+      call stresses_at(solid, k, a, .false., h, s, d, energy, new=new)
+      solid%history(:, :, k) = new
     end do
   end subroutine commit_step
 
@@ -160,36 +162,46 @@ contains
 
   !> Of all points of element k at relative displacements u: H, stress, moduli where asked for;
   !> energy of the element [F L].
-  pure subroutine stresses_at(solid, k, u, with_moduli, h, s, d, energy)
+  pure subroutine stresses_at(solid, k, u, with_moduli, h, s, d, energy, coupling, new)
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
     real(wp), intent(in) :: u(:, :)
     logical, intent(in) :: with_moduli
     real(wp), intent(out) :: h(:, :, :), s(:, :), d(:, :, :), energy
+    type(coupling_t), intent(inout), optional :: coupling
+    real(wp), intent(out), optional :: new(:, :)
     real(wp) :: e(solid%strains, solid%points)
     integer :: g
     do g = 1, solid%points
       call displacement_gradient(u, solid%slope(:, :, g, k), h(:, :, g))
       call green_strain(h(:, :, g), e(:, g))
     end do
-    call respond(solid, k, e, with_moduli, s, d, energy)
+    call respond(solid, k, e, with_moduli, s, d, energy, coupling, new)
   end subroutine stresses_at
 
   !> The law at all points of an element for their strains e; energy of the element [F L].
-  pure subroutine respond(solid, k, e, with_moduli, s, d, energy)
+  pure subroutine respond(solid, k, e, with_moduli, s, d, energy, coupling, new)
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
     real(wp), intent(in) :: e(:, :)
     logical, intent(in) :: with_moduli
     real(wp), intent(out) :: s(:, :), d(:, :, :), energy
-    real(wp) :: density, new(solid%material%states)
+    type(coupling_t), intent(inout), optional :: coupling
+    real(wp), intent(out), optional :: new(:, :)
+    real(wp) :: density, last(solid%material%states, solid%points)
     integer :: g
-    energy = zero
-    do g = 1, solid%points
-      call respond_as(solid%material, solid%plane, e(:, g), solid%history(:, g, k), &
-          with_moduli, s(:, g), d(:, :, g), density, new)
-      energy = energy + solid%weight(g, k)*density
-    end do
+    if (solid%is_mean) then
+      call mean_response(solid%material, solid%place, solid%weight(:, k), e, &
+          solid%history(:, :, k), with_moduli, s, d, energy, last, coupling)
+    else
+      energy = zero
+      do g = 1, solid%points
+        call respond_as(solid%material, solid%plane, e(:, g), solid%history(:, g, k), &
+            with_moduli, s(:, g), d(:, :, g), density, last(:, g))
+        energy = energy + solid%weight(g, k)*density
+      end do
+    end if
+    if (present(new)) new = last
   end subroutine respond
 
   !> The conserving force of an element, a the relative displacements U0, x those of the step.
@@ -212,12 +224,13 @@ contains
   !> S* = S(E_m) + q (E1 - E0), q = [W1 - W0 - sum w S(E_m):(E1 - E0)] / sum w |E1 - E0|^2;
   !> where the strain hardly changes q is left out: its numerator, of third order, is round-off
   !> there. A law with history has S* = S(E1): the step ends on its yield surface.
-  pure subroutine conserving_stresses(solid, k, a, x, with_moduli, h, s, d)
+  pure subroutine conserving_stresses(solid, k, a, x, with_moduli, h, s, d, coupling)
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
     real(wp), intent(in) :: a(:, :), x(:, :)
     logical, intent(in) :: with_moduli
     real(wp), intent(out) :: h(:, :, :), s(:, :), d(:, :, :)
+    type(coupling_t), intent(inout), optional :: coupling
     real(wp), parameter :: least = 2.5e-11_wp    ! of |dE|^2 = |dC|^2/4
     real(wp), dimension(solid%strains, solid%points) :: e0, e1, s_end
     real(wp) :: h1(solid%dim, solid%dim), energy, change, work, length
@@ -231,10 +244,10 @@ contains
       h(:, :, g) = half*(h(:, :, g) + h1)
     end do
     if (solid%material%states > 0) then
-      call respond(solid, k, e1, with_moduli, s, d, energy)
+      call respond(solid, k, e1, with_moduli, s, d, energy, coupling)
       return
     end if
-    call respond(solid, k, half*(e0 + e1), with_moduli, s, d, energy)
+    call respond(solid, k, half*(e0 + e1), with_moduli, s, d, energy, coupling)
     if (solid%material%is_quadratic) return
     length = zero
     work = zero
@@ -279,20 +292,24 @@ contains
     real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
     real(wp) :: d(solid%strains, solid%strains, solid%points), energy
     real(wp) :: b(solid%strains, solid%dim*solid%nodes), factor
+    real(wp), dimension(solid%dim*solid%nodes) :: to_g, to_b
+    type(coupling_t) :: coupling
     integer :: g
     call relative(solid, k, u0, a)
     call relative(solid, k, x, change)
     factor = half
     select case (rule%kind)
     case (force_middle)
-      call stresses_at(solid, k, a + half*change, .true., h, s, d, energy)
+      call stresses_at(solid, k, a + half*change, .true., h, s, d, energy, coupling)
     case (force_conserving)
-      call conserving_stresses(solid, k, a, change, .true., h, s, d)
+      call conserving_stresses(solid, k, a, change, .true., h, s, d, coupling)
     case default
-      call stresses_at(solid, k, a + change, .true., h, s, d, energy)
+      call stresses_at(solid, k, a + change, .true., h, s, d, energy, coupling)
       factor = rule%now
     end select
     ke = zero
+    to_g = zero
+    to_b = zero
     do g = 1, solid%points
       associate (w => factor*solid%weight(g, k), slope => solid%slope(:, :, g, k))
         call strain_matrix(h(:, :, g), slope, b)
@@ -300,8 +317,23 @@ contains
             d(:, :, g), b, ke)
         call add_geometric_part(w, s(:, g), slope, ke)
       end associate
+      if (.not. solid%is_mean) cycle
+      to_g = to_g + matmul(coupling%g(:, g), b)
+      to_b = to_b + matmul(coupling%b(:, g), b)
     end do
+    if (solid%is_mean) call add_coupling(merge(one, factor, stress_of_end(solid, rule)), &
+        coupling%z, to_g, to_b, ke)
   end subroutine element_tangent
+
+  !> ke = ke + factor (b g' + g b' + z g g').
+  pure subroutine add_coupling(factor, z, g, b, ke)
+    real(wp), intent(in) :: factor, z, g(:), b(:)
+    real(wp), intent(inout) :: ke(:, :)
+    integer :: j
+    do j = 1, size(g)
+      ke(:, j) = ke(:, j) + factor*((b(j) + z*g(j))*g + g(j)*b)
+    end do
+  end subroutine add_coupling
 
   !> Is the stress of the conserving force that of the end of the step? It then changes with x
   !> wholly, not by half.
@@ -316,19 +348,11 @@ contains
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
     real(wp), intent(in) :: u(:, :)
-    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim), e(solid%strains)
-    real(wp) :: s(solid%strains), d(solid%strains, solid%strains), density
-    real(wp) :: new(solid%material%states)
-    integer :: g
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim, solid%points)
+    real(wp) :: s(solid%strains, solid%points)
+    real(wp) :: d(solid%strains, solid%strains, solid%points)
     call relative(solid, k, u, a)
-    energy = zero
-    do g = 1, solid%points
-      call displacement_gradient(a, solid%slope(:, :, g, k), h)
-      call green_strain(h, e)
-      call respond_as(solid%material, solid%plane, e, solid%history(:, g, k), .false., s, &
-          d, density, new)
-      energy = energy + solid%weight(g, k)*density
-    end do
+    call stresses_at(solid, k, a, .false., h, s, d, energy)
   end function element_energy
 
   !> The smallest det F at the points of element k at displacements u (dim, *); not a number
