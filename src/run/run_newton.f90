@@ -74,7 +74,7 @@ contains
       call find_residual(run, stage, t1)
       call judge(run, change, last, pass, is_done)
       if (is_done) exit
-      if (needs_factor(pass, change, last)) call factor_matrix(run, .false., status)
+      if (needs_factor(pass, change, last)) call factor_tangent(run, pass == 1, status)
       if (pass > 1) last = change
       call correct(run, acting, status)
       if (failed(status)) return
@@ -84,8 +84,8 @@ contains
       run%newton%worst = max(run%newton%worst, pass)
     end do
     call count_work(run)
-    if (.not. is_done) call fail(status, status_numerical, "Newton's method has not converged "// &
-        'in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
+    if (.not. is_done) call fail(status, status_numerical, "Newton's method has not "// &
+        'converged in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
         to_text(change), hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
   end subroutine solve_newton
 
@@ -99,8 +99,8 @@ contains
     if (run%plan%loads) call weigh_loads(run, stage, t1)
     call run%scheme%right_side(stage, run%system, run%state, run%b)
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
-    call subtract_solid_force(run%system%solid, run%system%force_rule, one, run%state%u, run%x, &
-        run%b, run%newton%work)
+    call subtract_solid_force(run%system%solid, run%system%force_rule, one, run%state%u, &
+        run%x, run%b, run%newton%work)
     if (allocated(run%shift)) call add_shift(run%shift, run%x_pass - run%x, run%b)
     run%newton%residual = run%b
     if (run%system%any_fixed) call clear_fixed(run%system, run%b)
@@ -126,14 +126,30 @@ contains
     real(wp), intent(in) :: change, last
     integer, intent(in) :: pass
     logical, intent(out) :: is_done
-    real(wp), parameter :: floor = 1.0e-7_wp
+    real(wp), parameter :: floor = 1.0e-8_wp, at_rest = 0.9_wp
     real(wp) :: motion
     is_done = .false.
     if (pass == 1) return
     motion = maxval(abs(run%x))
     is_done = change <= run%newton%motion_tolerance*motion
-    is_done = is_done .or. (change < floor*motion .and. change > 0.3_wp*last)
+    is_done = is_done .or. (change < floor*motion .and. change > at_rest*last)
   end subroutine judge
+
+  !> The tangent at x. Where it is not positive definite the part that the stresses make is left
+  !> out for the rest of the step: what remains is, and its solution is the same.
+  subroutine factor_tangent(run, is_first, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: is_first
+    type(status_t), intent(inout) :: status
+    if (failed(status)) return
+    if (is_first) run%system%force_rule%geometric = one
+    call factor_matrix(run, .false., status)
+    if (status%code /= status_numerical) return
+    if (.not. run%system%force_rule%geometric > zero) return
+    status = status_t()
+    run%system%force_rule%geometric = zero
+    call factor_matrix(run, .false., status)
+  end subroutine factor_tangent
 
   !> At the start, and where the last passes converged slowly.
   pure logical function needs_factor(pass, change, last)
@@ -166,19 +182,20 @@ contains
     run%solves = run%solves + 1
   end subroutine correct
 
-  !> x = x + d, or less of d where an element would be turned inside out.
+  !> x = x + d, or less of d where an element would nearly be turned inside out.
   subroutine move_on(run, change, status)
     type(run_t), intent(inout) :: run
     real(wp), intent(out) :: change
     type(status_t), intent(inout) :: status
-    real(wp), parameter :: least_share = 1.0e-3_wp
-    real(wp) :: share, stretch
+    real(wp), parameter :: least_share = 1.0e-3_wp, kept = 0.4_wp    ! of det F
+    real(wp) :: share, stretch, present
     integer :: element
     share = one
+    call smallest_stretch(run%system%solid, run%state%u + run%x, present, element)
     do
       call smallest_stretch(run%system%solid, run%state%u + run%x + share*run%newton%d, &
           stretch, element)
-      if (stretch > zero) exit
+      if (stretch > kept*min(present, one)) exit
       share = half*share
       if (share < least_share) then
         call fail(status, status_numerical, 'element '// &

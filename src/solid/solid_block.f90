@@ -25,6 +25,8 @@ module solid_block
   type, public :: force_rule_t
     integer :: kind = force_ends
     real(wp) :: before = zero, now = one     !< weights of f(U0) and f(U1), for force_ends
+    !> Part of the tangent that stresses make and may make indefinite: 1 or 0.
+    real(wp) :: geometric = one
   end type force_rule_t
 
   type, public :: solid_t
@@ -315,7 +317,7 @@ contains
         call strain_matrix(h(:, :, g), slope, b)
         call add_material_part(merge(solid%weight(g, k), w, stress_of_end(solid, rule)), &
             d(:, :, g), b, ke)
-        call add_geometric_part(w, s(:, g), slope, ke)
+        call add_geometric_part(rule%geometric*w, s(:, g), slope, ke)
       end associate
       if (.not. solid%is_mean) cycle
       to_g = to_g + matmul(coupling%g(:, g), b)
