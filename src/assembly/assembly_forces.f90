@@ -9,7 +9,7 @@ module assembly_forces
   use assembly_solid, only: subtract_solid_force, add_solid_energy
   use assembly_system, only: system_t
   use model_data, only: model_t, curve_value
-  use solid_block, only: force_rule_t
+  use solid_block, only: force_rule_t, element_energy
   implicit none
   private
   public :: subtract_internal_force, subtract_layer_force, subtract_element_forces, &
@@ -221,11 +221,17 @@ contains
     end do
   end function layer_product
 
-  !> u.K u of element e [F L].
+  !> u.K u of element e, at finite deformation twice its strain energy [F L].
   pure real(wp) function element_product(system, e, u)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     real(wp), intent(in) :: u(:, :)
+    if (allocated(system%solid)) then
+      associate (solid => system%solid(system%block_of(e)))
+        element_product = 2.0_wp*element_energy(solid, e - solid%first + 1, u)
+      end associate
+      return
+    end if
     associate (block => system%block(system%block_of(e)))
       element_product = zero
       if (block%is_rigid) return

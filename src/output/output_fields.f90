@@ -11,6 +11,7 @@ module output_fields
   use deck_names, only: field_names
   use model_data, only: model_t
   use model_state, only: state_t
+  use solid_output, only: element_cauchy
   use output_principal, only: fill_principal
   use output_storage, only: mesh_t, field_t
   use output_table, only: next_due
@@ -215,9 +216,9 @@ contains
         case ('FORCE', 'PRESSURE', 'GAP', 'STATUS')
           call fill_contact(contact, model%nodes, fields%node, fields%field(k))
         case ('STRESS')
-          call find_stress(fields, state%u, values)
+          call find_stress(system, fields, state%u, values)
         case ('PRINCIPAL')
-          call find_stress(fields, state%u, fields%stress)
+          call find_stress(system, fields, state%u, fields%stress)
           call fill_principal(model%dim, fields%stress, values)
         case ('ENERGY')
           do i = 1, size(fields%cell)
@@ -229,7 +230,8 @@ contains
   end subroutine fill_fields
 
   !> Stress of the cells from the displacements u (dim, nodes) of their nodes.
-  pure subroutine find_stress(fields, u, stress)
+  pure subroutine find_stress(system, fields, u, stress)
+    type(system_t), intent(in) :: system
     type(fields_t), intent(in) :: fields
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: stress(:, :)
@@ -238,6 +240,13 @@ contains
     n = size(fields%stress_of, 1)
     total = zero
     do k = 1, size(fields%cell)
+      if (allocated(system%solid)) then
+        associate (solid => system%solid(system%block_of(fields%cell(k))))
+          call element_cauchy(solid, fields%cell(k) - solid%first + 1, u, total)
+        end associate
+        stress(:, k) = total(:size(stress, 1))
+        cycle
+      end if
       total(:n) = zero
       do c = fields%cell_first(k), fields%cell_first(k + 1) - 1
         of_node(:n) = fields%stress_of(:, size(u, 1)*(c - 1) + 1)*u(1, fields%cell_node(c))

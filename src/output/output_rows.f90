@@ -13,6 +13,7 @@ module output_rows
   use output_history, only: history_t, history_stress
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
   use output_tables, only: add_numbers, add_vector
+  use solid_output, only: element_cauchy
   use time_ledger, only: ledger_t
   implicit none
   private
@@ -132,13 +133,19 @@ contains
     integer :: k, e
     do k = 1, size(model%requests%history_element)
       e = model%requests%history_element(k)
-      call history_stress(history, k, state%u, stress(:size(history%b, 1)))
+      if (allocated(system%solid)) then
+        associate (solid => system%solid(system%block_of(e)))
+          call element_cauchy(solid, e - solid%first + 1, state%u, stress)
+        end associate
+      else
+        call history_stress(history, k, state%u, stress(:size(history%b, 1)))
+      end if
       associate (part => model%part(model%mesh%part(e)))
         call begin_row(file, status)
         call add_number(file, writer, state%time)
         call add_count(file, model%mesh%id(e))
         call add_count(file, part%id)
-        if (model%dim == 2) then
+        if (model%dim == 2 .and. .not. allocated(system%solid)) then
           call add_numbers(file, writer, [stress(1), stress(2), model%material( &
               part%material)%item%out_of_plane_stress(part%plane, stress(:3)), stress(3), &
               zero, zero])

@@ -64,9 +64,11 @@ contains
     end if
     if (controls%force == force_ends) return
     time = deck%next('BIPACT_TIME', 1, 0)
-    if (deck%is_given(time, 'XI') .and. abs(controls%xi - half) > zero) call deck%complain( &
-        time, 'XI', 'expected 0.5: the force of the step is that of its middle', &
-        'FORCE PAPER of *BIPACT_KINEMATICS has an XI')
+    if (time > 0) then
+      if (deck%is_given(time, 'XI') .and. abs(controls%xi - half) > zero) &
+          call deck%complain(time, 'XI', 'expected 0.5: the force of the step is that of '// &
+          'its middle', 'FORCE PAPER of *BIPACT_KINEMATICS has an XI')
+    end if
     controls%xi = half
   end subroutine choose_force
 

@@ -44,7 +44,7 @@ module solid_block
   end type solid_t
 
   public :: make_solid, begin_step, commit_step, element_force, element_tangent, &
-      element_energy, smallest_determinant
+      element_energy, smallest_determinant, relative
 
 contains
 

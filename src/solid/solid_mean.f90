@@ -14,8 +14,8 @@ module solid_mean
   private
   integer, parameter :: most = 8     !< points of such elements
 
-  !> What the tangent K = sum w [B' D B + geometric] has besides: b g' + g b' + z g g', with b and
-  !> g summed over the points by B'.
+  !> What the tangent K = sum w [B' D B + geometric] has besides: b g' + g b' + z g g', with b
+  !> and g summed over the points by B'.
   type, public :: coupling_t
     real(wp) :: g(6, most) = zero, b(6, most) = zero    !< (strains, points)
     real(wp) :: z = zero
@@ -25,17 +25,19 @@ module solid_mean
 
 contains
 
-  !> Stress s (strains, points), moduli d and coupling where asked for, energy [F L] of an element
-  !> with the weights of its points [L3], strains e (strains, points) and histories (states,
-  !> points). place: which of the six strains in space they are; new: histories at these strains.
+  !> Stress s (strains, points), moduli d and coupling where asked for, energy [F L] of an
+  !> element with the weights of its points [L3], strains e (strains, points) and histories
+  !> (states, points). place: which of the six strains in space they are; new: histories at
+  !> these strains; whole_s (6, points): the stresses in space.
   pure subroutine mean_response(material, place, weight, e, history, with_moduli, s, d, &
-      energy, new, coupling)
+      energy, new, coupling, whole_s)
     class(material_t), intent(in) :: material
     integer, intent(in) :: place(:)
     real(wp), intent(in) :: weight(:), e(:, :), history(:, :)
     logical, intent(in) :: with_moduli
     real(wp), intent(out) :: s(:, :), d(:, :, :), energy, new(:, :)
     type(coupling_t), intent(inout), optional :: coupling
+    real(wp), intent(out), optional :: whole_s(:, :)
     real(wp), dimension(6, size(weight)) :: whole, sb, cb, ci
     real(wp) :: db(6, 6, size(weight)), q(size(weight)), a(size(weight)), volume(size(weight))
     real(wp) :: th, p, density
@@ -48,6 +50,7 @@ contains
       do g = 1, size(weight)
         call leave_undefined(s(:, g), d(:, :, g), energy)
       end do
+      if (present(whole_s)) whole_s = energy
       new = history
       return
     end if
@@ -64,6 +67,7 @@ contains
     do g = 1, size(weight)
       associate (stress => a(g)*sb(:, g) + (p*(one + volume(g)) - q(g))*ci(:, g))
         s(:, g) = stress(place)
+        if (present(whole_s)) whole_s(:, g) = stress
       end associate
     end do
     if (.not. present(coupling)) return

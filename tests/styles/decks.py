@@ -268,7 +268,7 @@ add(
 )
 add(
     "filled: nonlinear solution",
-    "refused",
+    "runs",
     filled,
     more=("CONTROL_IMPLICIT_SOLUTION", [{"nsolvr": 12}, {}, {}, {}]),
 )
