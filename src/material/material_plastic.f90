@@ -160,7 +160,7 @@ contains
     b(4:) = half*b(4:)
   end function into_axes
 
-  !> dT/de of the return (Simo & Hughes 1998, box 3.2), in the axes of the stretches.
+  !> dT/de of the return (Simo & Hughes 1998, 3.3), in the axes of the stretches.
   pure function consistent_moduli(p, shear, bulk) result(d)
     type(point_t), intent(in) :: p
     real(wp), intent(in) :: shear, bulk
