@@ -14,7 +14,8 @@ module assembly_solid
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
-      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_stretch, exchange_solids
+      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_stretch, exchange_solids, &
+      plastic_work
 
 contains
 
@@ -182,6 +183,23 @@ contains
       end do
     end do
   end subroutine smallest_stretch
+
+  !> Plastic work so far [F L].
+  pure real(wp) function plastic_work(solid)
+    type(solid_t), intent(in) :: solid(:)
+    integer :: b, k
+    plastic_work = zero
+    do b = 1, size(solid)
+      if (solid(b)%n == 0) cycle
+      associate (row => solid(b)%material%work_state)
+        if (row == 0) cycle
+        do k = 1, solid(b)%n
+          plastic_work = plastic_work &
+              + dot_product(solid(b)%weight(:, k), solid(b)%history(row, :, k))
+        end do
+      end associate
+    end do
+  end function plastic_work
 
   !> Saves to or restores from the archive the histories of the points.
   subroutine exchange_solids(archive, solid)

@@ -7,7 +7,7 @@
 !> it serves, for an old A costs passes and no accuracy.
 module run_newton
   use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, &
-      subtract_tangent_product, smallest_stretch, exchange_solids
+      subtract_tangent_product, smallest_stretch, exchange_solids, plastic_work
   use assembly_system, only: clear_fixed, set_fixed, multiply_mass
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
@@ -241,19 +241,21 @@ contains
     change = maxval(abs(run%newton%d))
   end subroutine move_on
 
-  !> After the update: what the internal force took beside the strain energy goes to the
-  !> algorithmic loss, and the history of the points is that of the end.
+  !> After the update: the history of the points is that of the end; what the internal force
+  !> took beside strain energy and plastic work goes to the algorithmic loss.
   subroutine close_newton(run)
     type(run_t), intent(inout) :: run
-    real(wp) :: energy
+    real(wp) :: energy, plastic
     if (run%newton%is_explicit) run%newton%work = run%scheme%stage(1)%force_weight* &
         sum(run%newton%residual*run%scheme%conjugate)
     call find_strain_energies(run%model, run%system, run%state, run%ledger)
     energy = sum(run%ledger%part_internal)
-    run%ledger%algorithmic = run%ledger%algorithmic &
-        + (run%newton%work - (energy - run%newton%energy))
-    run%newton%energy = energy
     call commit_solids(run%system%solid, run%state%u)
+    plastic = plastic_work(run%system%solid)
+    run%ledger%algorithmic = run%ledger%algorithmic + (run%newton%work &
+        - (energy - run%newton%energy) - (plastic - run%ledger%plastic))
+    run%ledger%plastic = plastic
+    run%newton%energy = energy
   end subroutine close_newton
 
   !> Saves to or restores from the archive what a step changes: histories, counts.
