@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A stage at finite deformation: Newton's method on
 !>   R(x) = b - c_m M x - f*(U0, U0 + x) + H' r = 0,  x = U1 - U0,
-!> with the law of contact for all of x and r in each pass: from R without r the motion d_f, then
-!> u = W r + q with q of x + d_f, then d = d_f + A^-1 H' r. r is the whole force, so that
-!> nothing of contact is linearised; the factor of A is that of the start of the step as long as
-!> it serves, for an old A costs passes and no accuracy.
+!> with the law of contact for all of x and r in each pass: from R without r the motion d_f,
+!> then u = W r + q with q of x + d_f, then d = d_f + A^-1 H' r. r is the whole force, so that
+!> nothing of contact is linearised; the factor of A is that of the start of the step as long
+!> as it serves, for an old A costs passes and no accuracy.
 module run_newton
   use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, &
       subtract_tangent_product, smallest_stretch, exchange_solids, plastic_work
