@@ -127,6 +127,7 @@ module run_data
     logical :: is_explicit = .false.         !< nothing to iterate: residual is f(U0)
     real(wp) :: work = zero                  !< of the internal force in the step [F L]
     real(wp) :: energy = zero                !< strain energy at the end of the last step [F L]
+    real(wp) :: length = zero                !< of the scene: round-off of places [L]
     integer :: most_passes = 30
     real(wp) :: motion_tolerance = 1.0e-11_wp, force_tolerance = 1.0e-8_wp
     integer :: passes = 0, steps = 0         !< of the run so far

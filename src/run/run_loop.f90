@@ -194,8 +194,8 @@ contains
   subroutine end_static_phase(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
-    call start_dynamics(run, status)
     run%step%is_static = .false.
+    call start_dynamics(run, status)
     run%first_cycle = run%state%cycle
     run%ledger%staggered = run%scheme%staggered
     run%ledger%evaluated = -1

@@ -23,7 +23,7 @@ module run_newton
   use time_ledger, only: find_strain_energies
   implicit none
   private
-  public :: make_newton, iterates, solve_newton, close_newton, exchange_newton
+  public :: make_newton, choose_force, iterates, solve_newton, close_newton, exchange_newton
 
 contains
 
@@ -35,10 +35,20 @@ contains
     allocate (run%newton%residual, source=run%newton%d)
     if (run%plan%contact .and. any(run%model%controls%frame == [character(5) :: '', 'MID'])) &
         allocate (run%contact%half_motion, source=run%newton%d)
+    run%newton%length = maxval(maxval(run%model%x, dim=2) - minval(run%model%x, dim=2))
     run%newton%is_explicit = run%model%controls%is_explicit
-    run%system%force_rule = force_rule_t(kind=run%model%controls%force, &
-        before=one - run%scheme%stage(1)%c_k, now=run%scheme%stage(1)%c_k)
+    call choose_force(run)
   end subroutine make_newton
+
+  !> The force of a step in the scheme as it is; statics has that of the end.
+  subroutine choose_force(run)
+    type(run_t), intent(inout) :: run
+    associate (c_k => run%scheme%stage(1)%c_k)
+      run%system%force_rule = force_rule_t(kind=run%model%controls%force, before=one - c_k, &
+          now=c_k)
+    end associate
+    if (run%step%is_static) run%system%force_rule%kind = force_ends
+  end subroutine choose_force
 
   !> Does Newton's method find the motion of a step?
   pure logical function iterates(run)
@@ -165,7 +175,8 @@ contains
     is_done = .false.
     if (pass == 1) return
     motion = maxval(abs(run%x))
-    is_done = change <= run%newton%motion_tolerance*motion
+    is_done = change <= max(run%newton%motion_tolerance*motion, &
+        4.0_wp*epsilon(one)*run%newton%length)
     is_done = is_done .or. (change < floor*motion .and. (change > at_rest*last .or. &
         pass > enough))
   end subroutine judge

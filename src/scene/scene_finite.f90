@@ -78,6 +78,8 @@ contains
     type(controls_t), intent(in) :: controls
     integer, intent(in) :: r
     logical :: is_built
+    call refuse_card(deck, 'DAMPING_PART_STIFFNESS', 'PID', 'damping by stiffness')
+    call refuse_card(deck, 'DAMPING_PART_STIFFNESS_SET', 'PSID', 'damping by stiffness')
     if (controls%is_static) return
     is_built = any(controls%scheme == [character(10) :: 'THETA', 'NEWMARK']) .or. &
         controls%scheme == 'PAOLI' .and. controls%is_explicit
@@ -90,6 +92,15 @@ contains
         'TYPE', 'DISPERSION is tuned to one speed of waves, which changes with the strain', &
         'take CONSISTENT or LUMPED')
   end subroutine check_scheme
+
+  !> What a card asks for is not there at finite deformation.
+  subroutine refuse_card(deck, keyword, field, what)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: keyword, field, what
+    integer :: r
+    r = deck%next(keyword, 1, 0)
+    if (r > 0) call deck%complain(r, field, what//' is not available at finite deformation')
+  end subroutine refuse_card
 
   !> Each part needs a law of the kind that the deck asks for; parts and materials must have
   !> been read.
