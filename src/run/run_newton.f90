@@ -15,11 +15,11 @@ module run_newton
   use base_strings, only: to_text
   use base_timers, only: phase_product, phase_solve
   use run_data, only: run_t
-  use run_operator, only: factor_matrix
+  use run_operator, only: factor_matrix, kept_nodes
   use run_motion, only: find_given
   use run_static, only: add_shift
   use solid_block, only: force_rule_t, force_ends
-  use run_stage, only: add_contact, weigh_loads
+  use run_stage, only: add_contact, weigh_loads, follow
   use time_ledger, only: find_strain_energies
   implicit none
   private
@@ -218,7 +218,7 @@ contains
     call run%solver%solve_schur(free)
     if (run%plan%contact) then
       if (allocated(run%contact%half_motion)) run%contact%half_motion = half*run%x
-      run%x_interface = run%x(:, run%contact%interface_node) + free
+      run%x_interface = run%x(:, kept_nodes(run)) + free
       call add_contact(run, acting, status)
       if (.not. acting) run%x_interface = free
     else
@@ -226,6 +226,7 @@ contains
     end if
     call run%solver%backward(run%x_interface, run%newton%d)
     run%solves = run%solves + 1
+    if (allocated(run%rigid)) call follow(run, run%newton%d)
     if (.not. run%plan%motions) return
     call set_fixed(run%system, run%given, run%newton%d)    ! given: what there is to go yet
   end subroutine correct

@@ -111,7 +111,7 @@ contains
     do p = 1, size(model%part)
       if (model%part(p)%material == 0) cycle
       associate (law => model%material(model%part(p)%material)%item)
-        if (model%controls%is_finite .and. .not. law%is_finite) call deck%complain( &
+        if (model%controls%is_finite .and. .not. (law%is_finite .or. law%is_rigid)) call deck%complain( &
             model%part(p)%record, 'MID', 'material '//to_text(law%id)//' of part '// &
             to_text(model%part(p)%id)//' is not available at finite deformation', &
             'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')

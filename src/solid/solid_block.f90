@@ -326,8 +326,8 @@ contains
         call add_geometric_part(rule%geometric*w, s(:, g), slope, ke)
       end associate
       if (.not. solid%is_mean) cycle
-      to_g = to_g + matmul(coupling%g(:, g), b)
-      to_b = to_b + matmul(coupling%b(:, g), b)
+      to_g = to_g + matmul(coupling%g(:solid%strains, g), b)
+      to_b = to_b + matmul(coupling%b(:solid%strains, g), b)
     end do
     if (solid%is_mean) call add_coupling(merge(one, factor, stress_of_end(solid, rule)), &
         coupling%z, to_g, to_b, ke)
