@@ -111,10 +111,10 @@ contains
     do p = 1, size(model%part)
       if (model%part(p)%material == 0) cycle
       associate (law => model%material(model%part(p)%material)%item)
-        if (model%controls%is_finite .and. .not. (law%is_finite .or. law%is_rigid)) call deck%complain( &
-            model%part(p)%record, 'MID', 'material '//to_text(law%id)//' of part '// &
-            to_text(model%part(p)%id)//' is not available at finite deformation', &
-            'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')
+        if (.not. model%controls%is_finite .or. law%is_finite .or. law%is_rigid) cycle
+        call deck%complain(model%part(p)%record, 'MID', 'material '//to_text(law%id)// &
+            ' of part '//to_text(model%part(p)%id)//' is not available at finite '// &
+            'deformation', 'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')
       end associate
     end do
   end subroutine check_laws
