@@ -2,7 +2,9 @@
 !> Kinematics at the points of an element, total Lagrangian: displacement gradient H, Green's
 !> strain E = (H + H' + H'H)/2, which keeps the digits of small strains, and the matrix B of
 !> dE = B dU. Strains are (E11, E22, 2 E12) in the plane, (E11, E22, E33, 2 E12, 2 E23, 2 E31)
-!> in space.
+!> in space, (E11, E22, 2 E12, E33) around the y axis. There slopes have a third column, N_a/R
+!> with the radius R of the point, H a third one with H33 = u_r/R first, and displacements u_r
+!> are no relative ones.
 module solid_points
   use base_kinds, only: wp, zero, one, half
   implicit none
@@ -13,20 +15,26 @@ module solid_points
 contains
 
   !> H(i, j) = dU_i/dX_j from displacements u (dim, nodes) relative to the first node and slopes
-  !> (nodes, dim) [1/L]: a translation leaves no trace in the digits.
+  !> (nodes, columns) [1/L]: a translation leaves no trace in the digits.
   pure subroutine displacement_gradient(u, slope, h)
     real(wp), intent(in) :: u(:, :), slope(:, :)
     real(wp), intent(out) :: h(:, :)
     integer :: a, i, j
     h = zero
     do j = 1, size(h, 2)
-      do a = 2, size(u, 2)
+      do a = merge(1, 2, is_ring(h)), size(u, 2)
         do i = 1, size(h, 1)
           h(i, j) = h(i, j) + u(i, a)*slope(a, j)
         end do
       end do
     end do
   end subroutine displacement_gradient
+
+  !> Is there a third column of what is around the axis?
+  pure logical function is_ring(h)
+    real(wp), intent(in) :: h(:, :)
+    is_ring = size(h, 2) > size(h, 1)
+  end function is_ring
 
   !> Green's strain of a displacement gradient.
   pure subroutine green_strain(h, e)
@@ -38,6 +46,7 @@ contains
         e(k) = h(k, k) + half*(h(1, k)**2 + h(2, k)**2)
       end do
       e(3) = h(1, 2) + h(2, 1) + h(1, 1)*h(1, 2) + h(2, 1)*h(2, 2)
+      if (is_ring(h)) e(4) = h(1, 3) + half*h(1, 3)**2
     else
       do k = 1, 3
         e(k) = h(k, k) + half*(h(1, k)**2 + h(2, k)**2 + h(3, k)**2)
@@ -55,11 +64,13 @@ contains
     real(wp) :: f(size(h, 1), size(h, 1))
     integer :: a, i, d, c
     d = size(h, 1)
-    f = h
+    f = h(:, :d)
     do i = 1, d
       f(i, i) = one + h(i, i)
     end do
+    if (is_ring(h)) b(4, :) = zero
     do a = 1, size(slope, 1)
+      if (is_ring(h)) b(4, 2*a - 1) = (one + h(1, 3))*slope(a, 3)
       do i = 1, d
         c = d*(a - 1) + i
         b(1, c) = f(i, 1)*slope(a, 1)
@@ -86,21 +97,22 @@ contains
     p = stress
     do j = 1, size(h, 1)
       do i = 1, size(h, 1)
-        p(i, j) = p(i, j) + dot_product(h(i, :), stress(:, j))
+        p(i, j) = p(i, j) + dot_product(h(i, :size(h, 1)), stress(:, j))
       end do
     end do
     do a = 1, size(slope, 1)
       do j = 1, size(h, 1)
         force(:, a) = force(:, a) + p(:, j)*slope(a, j)
       end do
+      if (is_ring(h)) force(1, a) = force(1, a) + factor*(one + h(1, 3))*s(4)*slope(a, 3)
     end do
   end subroutine add_stress_force
 
-  !> The stress as a matrix.
+  !> The stress as a matrix, without what is around an axis.
   pure function square(s) result(stress)
     real(wp), intent(in) :: s(:)
-    real(wp) :: stress(size(s)/2 + mod(size(s), 2), size(s)/2 + mod(size(s), 2))
-    if (size(s) == 3) then
+    real(wp) :: stress(merge(3, 2, size(s) == 6), merge(3, 2, size(s) == 6))
+    if (size(s) < 6) then
       stress = reshape([s(1), s(3), s(3), s(2)], [2, 2])
     else
       stress = reshape([s(1), s(4), s(6), s(4), s(2), s(5), s(6), s(5), s(3)], [3, 3])
@@ -124,21 +136,24 @@ contains
     end do
   end subroutine add_material_part
 
-  !> ke = ke + factor (dN_a/dX . S dN_b/dX) I for each pair of nodes.
+  !> ke = ke + factor (dN_a/dX . S dN_b/dX) I for each pair of nodes, around an axis and
+  !> S33 N_a/R N_b/R for their radial displacements.
   pure subroutine add_geometric_part(factor, s, slope, ke)
     real(wp), intent(in) :: factor, s(:), slope(:, :)
     real(wp), intent(inout) :: ke(:, :)
-    real(wp) :: row(size(slope, 2)), stress(size(slope, 2), size(slope, 2)), value
+    real(wp) :: row(3), stress(3, 3), value
     integer :: a, b, i, d
-    d = size(slope, 2)
-    stress = factor*square(s)
+    d = merge(3, 2, size(s) == 6)
+    stress(:d, :d) = factor*square(s)
     do b = 1, size(slope, 1)
-      row = matmul(stress, slope(b, :))
+      row(:d) = matmul(stress(:d, :d), slope(b, :d))
       do a = 1, size(slope, 1)
-        value = dot_product(slope(a, :), row)
+        value = dot_product(slope(a, :d), row(:d))
         do i = 1, d
           ke(d*(a - 1) + i, d*(b - 1) + i) = ke(d*(a - 1) + i, d*(b - 1) + i) + value
         end do
+        if (size(s) == 4) ke(2*a - 1, 2*b - 1) = ke(2*a - 1, 2*b - 1) &
+            + factor*s(4)*slope(a, 3)*slope(b, 3)
       end do
     end do
   end subroutine add_geometric_part
