@@ -18,8 +18,8 @@ module element_base
     integer, allocatable :: vtk_order(:) !< its nodes in the order of VTK, where that is another
     !> Its mass takes points +-a(i) of parametric direction i, so DISPERSION is defined for it.
     logical :: takes_dispersion = .false.
-    !> Turned about the y axis, x the radius: weights are those of the whole ring, and the strain
-    !> around the axis, u_x/x, is the fourth.
+    !> Turned about the y axis, x the radius: weights are those of the whole ring, and the
+    !> strain around the axis, u_x/x, is the fourth.
     logical :: is_ring = .false.
     !> (nodes of a face, faces) outward: in the plane edges with the element on their left, in
     !> space seen from outside counter-clockwise; 0 = this face has fewer nodes

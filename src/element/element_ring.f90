@@ -28,6 +28,7 @@ contains
     element%is_ring = .true.
   end function new_quad4_ring
 
+  !> The triangle.
   pure function new_tri3_ring() result(element)
     type(tri3_ring_t) :: element
     element%tri3_t = new_tri3()

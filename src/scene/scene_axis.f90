@@ -14,8 +14,8 @@ module scene_axis
 
 contains
 
-  !> No node left of the axis, and no mass DISPERSION. A node as near to the axis as the rounding
-  !> of the others is on it.
+  !> No node left of the axis, and no mass DISPERSION. A node as near to the axis as the
+  !> rounding of the others is on it.
   subroutine check_axis(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(inout) :: model
