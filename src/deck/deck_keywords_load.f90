@@ -243,8 +243,9 @@ contains
 
   subroutine add_curve(table)
     type(table_t), intent(inout) :: table
-    call add_keyword(table, 'DEFINE_CURVE', 'a function of time, or of plastic strain, by points', title=.true., &
-        required=2, repeat_from=2)
+    call add_keyword(table, 'DEFINE_CURVE', &
+        'a function of time, or of plastic strain, by points', title=.true., required=2, &
+        repeat_from=2)
     call add_card(table)
     call add_field(table, 'LCID', 'I10 req >0', 'curve number')
     call add_field(table, 'SIDR', 'I10 =0 >=0 <=2', &

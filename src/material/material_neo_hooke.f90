@@ -32,8 +32,9 @@ contains
   end function new_neo_hooke
 
   !> W = C10 (I1 J^(-2/3) - 3) + K/2 (J - 1)^2, S = g (I - I1/3 C^-1) + K J (J - 1) C^-1, g = 2
-  !> C10 J^(-2/3) (Simo & Hughes 1998, 9.2). Terms of first order are taken out, with m =
-  !> J^(-2/3) - 1: I1 J^(-2/3) - 3 = 2 i1 (1 + m) + 3 m, 2 i1 = j - 4 i2 - 8 i3.
+  !> C10 J^(-2/3) (Treloar 1943, in the stretches without volume of Flory 1961). Terms of first
+  !> order are taken out, with m = J^(-2/3) - 1: I1 J^(-2/3) - 3 = 2 i1 (1 + m) + 3 m, 2 i1 = j
+  !> - 4 i2 - 8 i3.
   pure subroutine neo_hooke_response(this, e, old, with_moduli, s, d, energy, new)
     class(neo_hooke_t), intent(in) :: this
     real(wp), intent(in) :: e(6), old(:)

@@ -52,7 +52,7 @@ contains
 
   !> W = sum mu/alpha (lb1^alpha + lb2^alpha + lb3^alpha - 3) + K (J - 1 - ln J), lb = l
   !> J^(-1/3); Kirchhoff's principal stresses tau_A = sum mu (lb_A^alpha - mean) + K (J - 1)
-  !> (Ogden 1984, 7.4; axes and moduli: Holzapfel 2000, 6.6). All by h = ln lb, sum h = 0, of
+  !> (Ogden 1972; axes and moduli: Holzapfel 2000, 6.6). All by h = ln lb, sum h = 0, of
   !> the eigenvalues of E: terms of first order are not there to cancel.
   pure subroutine ogden_response(this, e, old, with_moduli, s, d, energy, new)
     class(ogden_t), intent(in) :: this

@@ -109,7 +109,8 @@ contains
     call return_to_yield(this, shear, old, new, p)
     t = two*shear*p%elastic + bulk*p%volume*identity
     energy = half*bulk*p%volume**2 + shear*contraction(p%elastic, p%elastic)
-    call to_reference(p, t, consistent_moduli(p, shear, bulk), with_moduli, s, d)
+    if (with_moduli) d = consistent_moduli(p, shear, bulk)
+    call to_reference(p, t, with_moduli, s, d)
   end subroutine plastic_response
 
   !> Radial return: trial deviator, flow along xi = s - X where |xi| exceeds the yield stress;
@@ -160,7 +161,7 @@ contains
     b(4:) = half*b(4:)
   end function into_axes
 
-  !> dT/de of the return (Simo & Hughes 1998, box 3.2), in the axes of the stretches.
+  !> dT/de of the return (Simo & Hughes 1998, 3.3), in the axes of the stretches.
   pure function consistent_moduli(p, shear, bulk) result(d)
     type(point_t), intent(in) :: p
     real(wp), intent(in) :: shear, bulk
@@ -176,15 +177,16 @@ contains
     if (p%step > zero) d = d - two*shear*along*outer(p%flow, p%flow)
   end function consistent_moduli
 
-  !> From T, conjugate to e = (ln C)/2, to S, and from dT/de to dS/dE, in space: with f[A,B],
+  !> From T, conjugate to e = (ln C)/2, to S, and d from dT/de to dS/dE, in space: with f[A,B],
   !> f[A,B,C] the difference quotients of ln at c_A, c_B, c_C, S_AB = T_AB f[A,B], D_ABCD =
   !> f[A,B] f[C,D] (dT/de)_ABCD + d_BD W^B_AC + d_BC W^B_AD + d_AD W^A_BC + d_AC W^A_BD, W^B_AC
   !> = T_AC f[A,B,C] (the second derivative of the logarithm: Miehe, Apel & Lambrecht 2002).
-  pure subroutine to_reference(p, t, dt, with_moduli, s, d)
+  pure subroutine to_reference(p, t, with_moduli, s, d)
     type(point_t), intent(in) :: p
-    real(wp), intent(in) :: t(6), dt(6, 6)
+    real(wp), intent(in) :: t(6)
     logical, intent(in) :: with_moduli
-    real(wp), intent(out) :: s(6), d(6, 6)
+    real(wp), intent(out) :: s(6)
+    real(wp), intent(inout) :: d(6, 6)
     real(wp) :: f(6), second(3, 3, 3), w(3, 3, 3), own(6, 6)
     integer :: m, n, i, j, k, l
     do m = 1, 6
@@ -200,7 +202,7 @@ contains
         end do
       end do
     end do
-    own = dt*outer(f, f)
+    own = d*outer(f, f)
     do n = 1, 6
       k = first_index(n)
       l = second_index(n)

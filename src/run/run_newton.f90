@@ -127,12 +127,14 @@ contains
     integer, intent(in) :: pass
     logical, intent(out) :: is_done
     real(wp), parameter :: floor = 1.0e-8_wp, at_rest = 0.9_wp
+    integer, parameter :: enough = 20
     real(wp) :: motion
     is_done = .false.
     if (pass == 1) return
     motion = maxval(abs(run%x))
     is_done = change <= run%newton%motion_tolerance*motion
-    is_done = is_done .or. (change < floor*motion .and. change > at_rest*last)
+    is_done = is_done .or. (change < floor*motion .and. (change > at_rest*last .or. &
+        pass > enough))
   end subroutine judge
 
   !> The tangent at x. Where it is not positive definite the part that the stresses make is left

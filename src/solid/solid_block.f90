@@ -95,7 +95,7 @@ contains
     type(solid_t), intent(inout) :: solid
     real(wp), intent(in) :: u0(:, :)
     integer :: k
-    if (solid%material%is_quadratic) return
+    if (has_quadratic_energy(solid)) return
     do k = 1, solid%n
       solid%energy(k) = element_energy(solid, k, u0)
     end do
@@ -257,7 +257,7 @@ contains
       return
     end if
     call respond(solid, k, half*(e0 + e1), with_moduli, s, d, energy, coupling)
-    if (solid%material%is_quadratic) return
+    if (has_quadratic_energy(solid)) return
     length = zero
     work = zero
     do g = 1, solid%points
@@ -271,6 +271,12 @@ contains
       s(:, g) = s(:, g) + change*tensor_of(e1(:, g) - e0(:, g), solid)
     end do
   end subroutine conserving_stresses
+
+  !> Is the energy of an element a quadratic form of its strains? The quotient is then zero.
+  pure logical function has_quadratic_energy(solid)
+    type(solid_t), intent(in) :: solid
+    has_quadratic_energy = solid%material%is_quadratic .and. .not. solid%is_mean
+  end function has_quadratic_energy
 
   !> E:E of a strain, whose shears are 2 E12.
   pure real(wp) function square_of(e, solid)
