@@ -59,6 +59,15 @@ class Mesh:
         return sorted(set(self.bottom() + self.top() + self.inner() + self.outer()))
 
 
+def ball(n, radius=1.0, centre=0.0, triangles=False):
+    """A half disc of n x 2n cells: a solid sphere."""
+    def shape(s, t):
+        return (radius * s * np.sqrt(1.0 - 0.5 * t * t),
+                centre + radius * t * np.sqrt(1.0 - 0.5 * s * s))
+
+    return Mesh((n, 2 * n), (0.0, 1.0), (-1.0, 1.0), triangles=triangles, shape=shape)
+
+
 def mesh_cards(mesh, part=1, first=1):
     """*NODE and *ELEMENT_SHELL; ids from `first` on."""
     lines = ["*NODE"] + ["%d,%r,%r" % (first + k, *map(float, p)) for k, p in enumerate(mesh.x)]
