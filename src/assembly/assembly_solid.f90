@@ -14,7 +14,8 @@ module assembly_solid
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
-      add_solid_tangents, add_solid_energy, smallest_stretch, exchange_solids
+      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_stretch, exchange_solids, &
+      plastic_work
 
 contains
 
@@ -130,6 +131,30 @@ contains
     end do
   end subroutine add_solid_tangents
 
+  !> b = b - (df*/dx) d, of the elements where d is not zero.
+  pure subroutine subtract_tangent_product(solid, rule, u0, x, d, b)
+    type(solid_t), intent(in) :: solid(:)
+    type(force_rule_t), intent(in) :: rule
+    real(wp), intent(in) :: u0(:, :), x(:, :), d(:, :)
+    real(wp), intent(inout) :: b(:, :)
+    real(wp), allocatable :: ke(:, :)
+    integer :: n, k, m
+    do n = 1, size(solid)
+      associate (s => solid(n))
+        if (s%n == 0) cycle
+        m = size(u0, 1)*s%nodes
+        allocate (ke(m, m))
+        do k = 1, s%n
+          if (.not. any(abs(d(:, s%node(:, k))) > zero)) cycle
+          call element_tangent(s, k, rule, u0, x, ke)
+          b(:, s%node(:, k)) = b(:, s%node(:, k)) - reshape(matmul(ke, &
+              reshape(d(:, s%node(:, k)), [m])), [size(u0, 1), s%nodes])
+        end do
+        deallocate (ke)
+      end associate
+    end do
+  end subroutine subtract_tangent_product
+
   !> energy = energy + that of a block at displacements u [F L].
   pure subroutine add_solid_energy(solid, u, energy)
     type(solid_t), intent(in) :: solid
@@ -160,6 +185,23 @@ contains
       end do
     end do
   end subroutine smallest_stretch
+
+  !> Plastic work so far [F L].
+  pure real(wp) function plastic_work(solid)
+    type(solid_t), intent(in) :: solid(:)
+    integer :: b, k
+    plastic_work = zero
+    do b = 1, size(solid)
+      if (solid(b)%n == 0) cycle
+      associate (row => solid(b)%material%work_state)
+        if (row == 0) cycle
+        do k = 1, solid(b)%n
+          plastic_work = plastic_work &
+              + dot_product(solid(b)%weight(:, k), solid(b)%history(row, :, k))
+        end do
+      end associate
+    end do
+  end function plastic_work
 
   !> Saves to or restores from the archive the histories of the points.
   subroutine exchange_solids(archive, solid)

@@ -53,7 +53,7 @@ contains
     material = new_piecewise(id, density, young, nu, [zero, one], [yield, yield + beta*h])
     material%has_back = beta < one
     material%back = (one - beta)*h
-    if (material%has_back) material%states = 13
+    if (material%has_back) call number_states(material, 12)
   end function new_bilinear
 
   !> Isotropic hardening by points: yield stress [F/L2] against equivalent plastic strain, which
@@ -72,13 +72,22 @@ contains
     material%is_linear = .false.
     material%is_finite = .true.
     material%mean_dilatation = .true.
-    material%states = 7
+    call number_states(material, 6)
     allocate (material%start(n), material%yield(n), material%slope(n))
     material%start = strain(:n)
     material%yield = stress(:n)
     material%slope = zero
     if (size(strain) > 1) material%slope = (stress(2:) - stress(:n))/(strain(2:) - strain(:n))
   end function new_piecewise
+
+  !> History: the tensors, the plastic work, the equivalent plastic strain.
+  pure subroutine number_states(material, tensors)
+    type(plastic_t), intent(inout) :: material
+    integer, intent(in) :: tensors
+    material%work_state = tensors + 1
+    material%strain_state = tensors + 2
+    material%states = tensors + 2
+  end subroutine number_states
 
   !> Plastic modulus H = E Et/(E - Et) [F/L2] from the tangent modulus of a bar.
   pure real(wp) function hardening_modulus(young, tangent)
@@ -147,6 +156,7 @@ contains
       new(:6) = old(:6) + p%step*n_space
       if (this%has_back) new(7:12) = old(7:12) + two/3.0_wp*this%back*p%step*n_space
     end associate
+    new(n - 1) = old(n - 1) + two*shear*p%step*contraction(p%elastic, p%flow)
     new(n) = alpha + root*p%step
   end subroutine return_to_yield
 

@@ -12,7 +12,7 @@ module output_rows
   use model_state, only: state_t
   use output_history, only: history_t, history_stress
   use output_table, only: table_file_t, begin_row, add_number, add_count, end_row
-  use output_tables, only: add_numbers, add_vector
+  use output_tables, only: flows, add_numbers, add_vector
   use solid_output, only: element_cauchy
   use time_ledger, only: ledger_t
   implicit none
@@ -22,9 +22,10 @@ module output_rows
 contains
 
   !> Energies, ledger, momenta.
-  subroutine write_glstat(file, writer, state, ledger, h, status)
+  subroutine write_glstat(file, writer, model, state, ledger, h, status)
     type(table_file_t), intent(inout) :: file
     type(real_writer_t), intent(in) :: writer
+    type(model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     type(ledger_t), intent(in) :: ledger
     real(wp), intent(in) :: h
@@ -39,6 +40,7 @@ contains
         ledger%ratio])
     call add_vector(file, writer, ledger%momentum)
     call add_vector(file, writer, ledger%angular)
+    if (flows(model)) call add_number(file, writer, ledger%plastic)
     call end_row(file)
   end subroutine write_glstat
 

@@ -25,10 +25,21 @@ module output_tables
   end type tables_t
 
   public :: flush_tables, exchange_tables, retime_tables, check_tables
-  public :: open_tables, any_due, energies_due, close_tables, add_numbers, &
+  public :: flows, open_tables, any_due, energies_due, close_tables, add_numbers, &
       add_vector
 
 contains
+
+  !> Does a part flow? GLSTAT has its work then.
+  pure logical function flows(model)
+    type(model_t), intent(in) :: model
+    integer :: p
+    flows = .false.
+    if (.not. model%controls%is_finite) return
+    do p = 1, size(model%part)
+      flows = flows .or. model%material(model%part(p)%material)%item%work_state > 0
+    end do
+  end function flows
 
   !> Opens the tables that the deck asks for; again: keeps the rows of the run that goes on,
   !> where it has some.
@@ -38,12 +49,14 @@ contains
     character(*), intent(in) :: folder
     logical, intent(in) :: has_acceleration, again
     type(status_t), intent(inout) :: status
-    character(:), allocatable :: more
+    character(:), allocatable :: more, lost
     more = ''
+    lost = ''
+    if (flows(model)) lost = ' plastic'
     if (has_acceleration) more = ' ax ay az'
     call open_one(table_glstat, 'time cycle dt kinetic internal total '// &
         'initial external motion friction contact unsolved algorithmic damping '// &
-        'residual ratio momx momy momz angx angy angz')
+        'residual ratio momx momy momz angx angy angz'//lost)
     call open_one(table_matsum, 'time part mass kinetic internal momx momy momz vx vy vz')
     call open_one(table_nodout, 'time node ux uy uz vx vy vz vmx vmy vmz x y z'//more)
     call open_one(table_elout, 'time element part sxx syy szz sxy syz szx energy')

@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A stage at finite deformation: Newton's method on
 !>   R(x) = b - c_m M x - f*(U0, U0 + x) + H' r = 0,  x = U1 - U0,
-!> with the law of contact for all of x and r in each pass: from R without r the motion d_f, then
-!> u = W r + q with q of x + d_f, then d = d_f + A^-1 H' r. r is the whole force, so that
-!> nothing of contact is linearised; the factor of A is that of the start of the step as long as
-!> it serves, for an old A costs passes and no accuracy.
+!> with the law of contact for all of x and r in each pass: from R without r the motion d_f,
+!> then u = W r + q with q of x + d_f, then d = d_f + A^-1 H' r. r is the whole force, so that
+!> nothing of contact is linearised; the factor of A is that of the start of the step as long
+!> as it serves, for an old A costs passes and no accuracy.
 module run_newton
   use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, &
-      smallest_stretch, exchange_solids
-  use assembly_system, only: clear_fixed, multiply_mass
+      subtract_tangent_product, smallest_stretch, exchange_solids, plastic_work
+  use assembly_system, only: clear_fixed, set_fixed, multiply_mass
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical
@@ -16,7 +16,7 @@ module run_newton
   use base_timers, only: phase_product, phase_solve
   use run_data, only: run_t
   use run_operator, only: factor_matrix
-  use run_motion, only: find_given, restore_motions
+  use run_motion, only: find_given
   use run_static, only: add_shift
   use solid_block, only: force_rule_t, force_ends
   use run_stage, only: add_contact, weigh_loads
@@ -61,13 +61,7 @@ contains
     if (failed(status)) return
     call run%timers%enter(phase_product)
     call begin_solids(run%system%solid, run%state%u)
-    run%x = run%scheme%h*run%state%v
-    if (run%plan%motions) then
-      call find_given(run, stage, t1)
-      call restore_motions(run)
-    else if (run%system%any_fixed) then
-      call clear_fixed(run%system, run%x)
-    end if
+    call predict(run, stage, t1)
     run%newton%steps = run%newton%steps + 1
     last = huge(one)
     do pass = 1, run%newton%most_passes
@@ -76,6 +70,7 @@ contains
       if (is_done) exit
       if (needs_factor(pass, change, last)) call factor_tangent(run, pass == 1, status)
       if (pass > 1) last = change
+      if (pass == 1 .and. run%plan%motions) call push_motions(run, stage)
       call correct(run, acting, status)
       if (failed(status)) return
       call move_on(run, change, status)
@@ -88,6 +83,39 @@ contains
         'converged in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
         to_text(change), hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
   end subroutine solve_newton
+
+  !> The first x: as the bodies fly. Driven dofs are where their velocity brings them; what is
+  !> left to where they must be, run%given, comes with the first pass.
+  subroutine predict(run, stage, t1)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: t1
+    integer :: k
+    run%x = run%scheme%h*run%state%v
+    if (.not. run%plan%motions) then
+      if (run%system%any_fixed) call clear_fixed(run%system, run%x)
+      return
+    end if
+    call find_given(run, stage, t1)
+    associate (list => run%system%fixed_list)
+      do k = 1, size(list, 2)
+        associate (d => list(1, k), i => list(2, k))
+          if (run%model%fixed(d, i)) run%x(d, i) = zero
+          run%given(d, i) = run%given(d, i) - run%x(d, i)
+        end associate
+      end do
+    end associate
+  end subroutine predict
+
+  !> b = b - A times what the driven dofs have still to go.
+  subroutine push_motions(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%given, run%b)
+    call subtract_tangent_product(run%system%solid, run%system%force_rule, run%state%u, run%x, &
+        run%given, run%b)
+    call clear_fixed(run%system, run%b)
+  end subroutine push_motions
 
   !> run%b: what is left of the balance at x but for contact, held dofs cleared.
   subroutine find_residual(run, stage, t1)
@@ -182,6 +210,8 @@ contains
     end if
     call run%solver%backward(run%x_interface, run%newton%d)
     run%solves = run%solves + 1
+    if (.not. run%plan%motions) return
+    call set_fixed(run%system, run%given, run%newton%d)    ! given: what there is to go yet
   end subroutine correct
 
   !> x = x + d, or less of d where an element would nearly be turned inside out.
@@ -207,22 +237,25 @@ contains
       end if
     end do
     run%x = run%x + share*run%newton%d
+    if (run%plan%motions) run%given = (one - share)*run%given
     change = maxval(abs(run%newton%d))
   end subroutine move_on
 
-  !> After the update: what the internal force took beside the strain energy goes to the
-  !> algorithmic loss, and the history of the points is that of the end.
+  !> After the update: the history of the points is that of the end; what the internal force
+  !> took beside strain energy and plastic work goes to the algorithmic loss.
   subroutine close_newton(run)
     type(run_t), intent(inout) :: run
-    real(wp) :: energy
+    real(wp) :: energy, plastic
     if (run%newton%is_explicit) run%newton%work = run%scheme%stage(1)%force_weight* &
         sum(run%newton%residual*run%scheme%conjugate)
     call find_strain_energies(run%model, run%system, run%state, run%ledger)
     energy = sum(run%ledger%part_internal)
-    run%ledger%algorithmic = run%ledger%algorithmic &
-        + (run%newton%work - (energy - run%newton%energy))
-    run%newton%energy = energy
     call commit_solids(run%system%solid, run%state%u)
+    plastic = plastic_work(run%system%solid)
+    run%ledger%algorithmic = run%ledger%algorithmic + (run%newton%work &
+        - (energy - run%newton%energy) - (plastic - run%ledger%plastic))
+    run%ledger%plastic = plastic
+    run%newton%energy = energy
   end subroutine close_newton
 
   !> Saves to or restores from the archive what a step changes: histories, counts.

@@ -14,6 +14,7 @@ module run_report
   use deck_echo, only: write_echo
   use deck_names, only: step_fixed
   use linalg_solver, only: solver_t, work_of, inverse_bytes
+  use output_tables, only: flows
   use run_data, only: run_t
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
@@ -42,6 +43,16 @@ contains
         to_text(run%state%time)
     call write_solver(run%solver, run%log_unit)
   end subroutine open_log
+
+  !> Passes of Newton's method.
+  subroutine write_newton(run, unit)
+    type(run_t), intent(in) :: run
+    integer, intent(in) :: unit
+    if (run%newton%is_explicit) return
+    write (unit, '(a)') "Newton's method: passes "//to_text(run%newton%passes)//', '// &
+        to_text(real(run%newton%passes, wp)/max(1, run%newton%steps))//' a step, most '// &
+        to_text(run%newton%worst)
+  end subroutine write_newton
 
   !> What a factor costs, and where there are contact dofs their part of it.
   subroutine write_solver(solver, unit)
@@ -140,6 +151,8 @@ contains
       write (unit, '(a)') '  lost: friction '//to_text(l%contact%friction)//', contact '// &
           to_text(l%contact%normal)//', algorithmic '//to_text(l%algorithmic)//', damping '// &
           to_text(l%damping)//'; unsolved '//to_text(l%contact%unsolved)
+      if (flows(run%model)) write (unit, '(a)') '  plastic work '//to_text(l%plastic)
+      if (allocated(run%newton)) call write_newton(run, unit)
       write (unit, '(a)') '  ledger residual '//to_text(l%residual)//' (worst '// &
           to_text(l%worst_residual)//'), ratio '//to_text(l%ratio)
       if (run%plan%contact) call write_rows_by_kind(run%contact, totals, unit)

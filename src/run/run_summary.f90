@@ -186,6 +186,7 @@ contains
       call json%put(l%contact%unsolved, 'unsolved')
       call json%put(l%algorithmic, 'algorithmic')
       call json%put(l%damping, 'damping')
+      if (allocated(run%newton)) call json%put(l%plastic, 'plastic')
       call json%put(l%residual, 'residual')
       call json%put(l%worst_residual, 'worst_residual')
       call json%put(l%ratio, 'ratio')

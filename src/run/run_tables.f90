@@ -42,7 +42,7 @@ contains
         state => run%state, time => run%state%time, h => run%scheme%h)
       select case (k)
       case (table_glstat)
-        call write_glstat(file, writer, state, run%ledger, h, status)
+        call write_glstat(file, writer, model, state, run%ledger, h, status)
       case (table_matsum)
         call write_matsum(file, writer, model, state, run%ledger, status)
       case (table_nodout)

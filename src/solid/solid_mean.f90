@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Mean dilatation at finite strain (Q1P0; Simo, Taylor & Pister 1985): an element has one change
-!> of volume, th = sum w J / V, and its energy is sum w W(Cb) of Cb = (th/J)^(2/3) C. Stress and
-!> moduli at a point are
+!> Mean dilatation at finite strain (Q1P0; Simo, Taylor & Pister 1985): an element has one
+!> change of volume, th = sum w J / V, and its energy is sum w W(Cb) of Cb = (th/J)^(2/3) C.
+!> Stress and moduli at a point are
 !>   S = a Sb + (p J - q) Ci,  a = (th/J)^(2/3), q = Sb:Cb/3, p = sum w q / (V th),
 !> with Sb, Db the law at Cb and Ci = C^-1; the tangent of the element has two vectors besides,
 !> g and b: it is symmetric.

@@ -20,6 +20,7 @@ module time_ledger
     type(contact_work_t) :: contact  !< lost so far: friction, normal; gained: unsolved
     real(wp) :: algorithmic = zero   !< taken out by the scheme so far
     real(wp) :: damping = zero
+    real(wp) :: plastic = zero          !< plastic work, stored hardening included
     real(wp) :: residual = zero      !< of the balance / largest term so far
     real(wp) :: ratio = one          !< total / (initial + external + motion)
     real(wp) :: largest = zero
@@ -265,9 +266,10 @@ contains
     ledger%largest = max(ledger%largest, ledger%kinetic, ledger%internal, abs(ledger%total), &
         abs(ledger%initial), abs(ledger%external), abs(ledger%motion), &
         abs(ledger%contact%friction), abs(ledger%contact%normal), abs(ledger%algorithmic), &
-        abs(ledger%damping))
+        abs(ledger%damping), abs(ledger%plastic))
     misfit = ledger%total - source + ledger%contact%friction + ledger%contact%normal &
-        - ledger%contact%unsolved + ledger%algorithmic + ledger%damping
+        - ledger%contact%unsolved + ledger%algorithmic + ledger%damping &
+        + ledger%plastic
     ledger%residual = zero
     if (ledger%largest > zero) ledger%residual = misfit/ledger%largest
     ledger%worst_residual = max(ledger%worst_residual, abs(ledger%residual))
@@ -301,12 +303,12 @@ contains
   subroutine exchange_ledger(archive, ledger)
     type(archive_t), intent(inout) :: archive
     type(ledger_t), intent(inout) :: ledger
-    real(wp) :: values(13)
+    real(wp) :: values(14)
     integer :: counts(2)
     values = [ledger%initial, ledger%external, ledger%motion, ledger%contact%friction, &
         ledger%contact%normal, ledger%contact%unsolved, ledger%contact%paid_back, &
         ledger%algorithmic, ledger%damping, ledger%largest, ledger%lowest, &
-        ledger%worst_residual, ledger%largest_growth]
+        ledger%worst_residual, ledger%largest_growth, ledger%plastic]
     counts = [ledger%growths, ledger%first_growth]
     call archive%exchange('ledger.values', values)
     call archive%exchange('ledger.counts', counts)
@@ -323,6 +325,7 @@ contains
     ledger%lowest = values(11)
     ledger%worst_residual = values(12)
     ledger%largest_growth = values(13)
+    ledger%plastic = values(14)
     ledger%growths = counts(1)
     ledger%first_growth = counts(2)
   end subroutine exchange_ledger

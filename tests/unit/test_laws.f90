@@ -108,14 +108,14 @@ contains
       old = zero
       if (case%is_plastic) old = flowed(case%law, random_strain(0.1_wp))
       other_old = old
-      do m = 1, n - 1, 6
+      do m = 1, 6*((n - 1)/6), 6
         other_old(m:m + 5) = turned(old(m:m + 5), r, one)
       end do
       call case%law%respond(e, old, .false., s, d, w, new)
       call case%law%respond(turned(e, r, two), other_old, .false., other, d, other_w, other_new)
       error = max(error, maxval(abs(other - turned(s, r, one)))/maxval(abs(s)), &
           abs(other_w - w)/w)
-      do m = 1, n - 1, 6
+      do m = 1, 6*((n - 1)/6), 6
         error = max(error, maxval(abs(other_new(m:m + 5) - turned(new(m:m + 5), r, one))) &
             /max(maxval(abs(new(m:m + 5))), 1.0e-3_wp))
       end do
