@@ -54,6 +54,8 @@ contains
     real(wp), intent(in) :: t1
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
+    !> Passes in which contact chooses its rows anew: later ones only turn between two choices.
+    integer, parameter :: most_choices = 14
     real(wp) :: change, last
     integer :: pass
     logical :: is_done
@@ -71,13 +73,16 @@ contains
       if (needs_factor(pass, change, last)) call factor_tangent(run, pass == 1, status)
       if (pass > 1) last = change
       if (pass == 1 .and. run%plan%motions) call push_motions(run, stage)
+      run%contact%keeps_rows = pass > most_choices
       call correct(run, acting, status)
-      if (failed(status)) return
+      if (failed(status)) exit
       call move_on(run, change, status)
-      if (failed(status)) return
+      if (failed(status)) exit
       run%newton%passes = run%newton%passes + 1
       run%newton%worst = max(run%newton%worst, pass)
     end do
+    run%contact%keeps_rows = .false.
+    if (failed(status)) return
     call count_work(run)
     if (.not. is_done) call fail(status, status_numerical, "Newton's method has not "// &
         'converged in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
