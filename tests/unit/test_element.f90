@@ -145,8 +145,8 @@ contains
         1.0e-13_wp, element%name//' mean strain', maxval(abs(strain)))
   end subroutine test_stiffness
 
-  !> A motion along the axis costs no force; the strain that a displacement (a x, b y) makes, with
-  !> a around the axis, costs the exact energy.
+  !> A motion along the axis costs no force; the strain that a displacement (a x, b y) makes,
+  !> with a around the axis, costs the exact energy.
   subroutine test_ring()
     real(wp), parameter :: a = 0.3_wp, b = -0.7_wp
     real(wp), parameter :: strain(4) = [a, b, zero, a]
@@ -237,8 +237,8 @@ contains
   end subroutine test_mass
 
   !> Area of the polygon; of a ring its first moment times 2 pi (Pappus); volume by the
-  !> divergence theorem: a third of the integral of x.n over the bilinear faces, exact with 2 x 2
-  !> points.
+  !> divergence theorem: a third of the integral of x.n over the bilinear faces, exact with
+  !> 2 x 2 points.
   real(wp) function measure(x)
     real(wp), intent(in) :: x(:, :)
     integer :: f, m
