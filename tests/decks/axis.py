@@ -5,6 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
+import h5py
 import numpy as np
 from rings import (Mesh, ball, curve, deck, elastic, flight, mesh_cards, node_set, part_cards,
                    pressed)
@@ -52,6 +53,7 @@ def axis_patch():
             lines += ["*DATABASE_HISTORY_NODE"] + ["%d," % (r + 1) for r in inside]
             lines += ["*DATABASE_HISTORY_SHELL"]
             lines += ["%d," % (e + 1) for e in range(len(mesh.elements))]
+            lines += ["*BIPACT_FIELD", "1.0,", "STRESS,PRINCIPAL"]
             folder = run(
                 "patch", deck(lines, 1.0, 1.0, static=True, tables=("GLSTAT", "NODOUT", "ELOUT"))
             )
@@ -66,6 +68,13 @@ def axis_patch():
             got = np.stack([rows[c][last] for c in ("sxx", "syy", "szz", "sxy", "syz", "szx")])
             at_most(np.abs(got - want[:, None]).max() / np.abs(want).max(), 1.0e-12,
                     what + ": stress")
+            m = len(mesh.elements)
+            with h5py.File(os.path.join(folder, "fields.000.vtkhdf")) as file:
+                fields = file["VTKHDF/CellData"]
+                got = [fields["STRESS"][m:2 * m] - want,
+                       fields["PRINCIPAL"][m:2 * m] - np.sort(want[:3])[::-1]]
+            at_most(max(np.abs(g).max() for g in got) / np.abs(want).max(), 1.0e-12,
+                    what + ": stress of the fields")
             energy = rows["energy"][last].sum()
             volume = np.pi * (radii[1] ** 2 - radii[0] ** 2)
             exact = 0.5 * volume * (2.0 * want[0] * a + want[1] * b)
@@ -162,6 +171,16 @@ def axis_ledgers():
     damping = ["*DAMPING_GLOBAL", "0,20.0,1.0,2.0,0.5", "*DAMPING_PART_STIFFNESS", "2,-1e-5"]
     rows = table(run("damped", deck(meeting() + damping, 1.0e-4, 0.01)), "glstat")
     at_most(np.abs(rows["residual"]).max(), LEDGER, "damped")
+    mesh = Mesh((6, 6), heights=(0.01, 1.01))
+    lines = mesh_cards(mesh) + part_cards() + elastic()
+    lines += node_set(1, range(len(mesh.x))) + flight(vy=-5.0) + [
+        "*RIGIDWALL_GEOMETRIC_CYLINDER", "0,", "0.0,-2.0,0.0,0.0,-2.0,1.0,0.3", "2.0,"]
+    folder = run("sphere", deck(lines, 1.0e-4, 0.01, tables=("GLSTAT", "RWFORC")))
+    rows, wall = table(folder, "glstat"), table(folder, "rwforc")
+    at_most(np.abs(rows["residual"]).max(), LEDGER, "a block on a wall that is a sphere")
+    change = rows["momy"] - rows["momy"][0] - wall["iy"]
+    at_most(np.abs(change).max() / abs(rows["momy"][0]), 1.0e-11, "its momentum")
+    check(rows["friction"][-1] > 0.0, "it slides")
     text = deck(meeting(), 2.0e-5, 0.01, scheme="PAOLI,,,,,,0.0", mass="LUMPED,0")
     rows = table(run("explicit", text), "glstat")
     at_most(np.abs(rows["residual"]).max(), LEDGER, "explicit")
