@@ -148,6 +148,10 @@ contains
     ledger%kinetic = sum(ledger%part_kinetic)
     ledger%internal = sum(ledger%part_internal)
     if (model%bodies > 0) call add_walls(model, state, ledger)
+    if (model%is_axisymmetric) then    ! what is radial cancels around the axis
+      ledger%momentum(1) = zero
+      ledger%angular = zero
+    end if
     call balance(ledger)
     call watch_growth(ledger)
   end subroutine evaluate_ledger
