@@ -228,7 +228,9 @@ contains
     real(wp), intent(in) :: u(:, :)
     if (allocated(system%solid)) then
       associate (solid => system%solid(system%block_of(e)))
-        element_product = 2.0_wp*element_energy(solid, e - solid%first + 1, u)
+        element_product = zero
+        if (solid%n > 0) element_product = &
+            2.0_wp*element_energy(solid, e - solid%first + 1, u)
       end associate
       return
     end if

@@ -31,6 +31,7 @@ contains
       contact%free(:, contact%interface_node(k)) = x_free(:, k)
     end do
     contact%late_rounds = 0
+    if (contact%keeps_rows) return
     is_same = contact%rows_are_plain
     do p = 1, size(contact%pairing)
       if (.not. (contact%acts(p) .and. contact%pairing(p)%item%listed > 0)) cycle

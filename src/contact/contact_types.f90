@@ -44,6 +44,8 @@ module contact_types
     !> (dim, nodes) half of the motion that Newton's method has found so far: rows of bodies have
     !> the frames of the middle of the step. Only at finite deformation with FRAME MID [L]
     real(wp), allocatable :: half_motion(:, :)
+    !> Rows stay as they are from pass to pass, but for those that are missing.
+    logical :: keeps_rows = .false.
     logical :: keeps_before = .false.
     type(contact_rule_t) :: rule                  !< of the stage
     !> r.dU of the step is friction and normal loss, each by its own formula

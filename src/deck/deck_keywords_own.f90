@@ -46,7 +46,8 @@ contains
     call add_field(table, 'FORCE', 'W10 '//choices(force_names), &
         'internal force of a step of THETA; blank = EMC')
     call add_field(table, 'LAW', 'W10 |SVK|', 'of *MAT_ELASTIC; blank = SVK')
-    call add_field(table, 'QP0', 'W10 =AUTO |AUTO|0|1|', 'mean dilatation: as the law, none, all')
+    call add_field(table, 'QP0', 'W10 =AUTO |AUTO|0|1|', &
+        'mean dilatation: as the law, none, all')
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'TYPE', 'W10 =CONSISTENT '//choices(mass_names), 'mass matrix')

@@ -122,11 +122,12 @@ module run_data
   !> Newton's method in a step of finite deformation (run_newton).
   type, public :: newton_t
     real(wp), allocatable :: d(:, :)         !< (dim, n) correction of x [L]
-    !> (dim, n) what is left of the balance at x but for contact, before held dofs are cleared [F]
+    !> (dim, n) what is left of the balance at x but for contact, held dofs included [F]
     real(wp), allocatable :: residual(:, :)
     logical :: is_explicit = .false.         !< nothing to iterate: residual is f(U0)
     real(wp) :: work = zero                  !< of the internal force in the step [F L]
     real(wp) :: energy = zero                !< strain energy at the end of the last step [F L]
+    real(wp) :: length = zero                !< of the scene: round-off of places [L]
     integer :: most_passes = 30
     real(wp) :: motion_tolerance = 1.0e-11_wp, force_tolerance = 1.0e-8_wp
     integer :: passes = 0, steps = 0         !< of the run so far

@@ -15,15 +15,15 @@ module run_newton
   use base_strings, only: to_text
   use base_timers, only: phase_product, phase_solve
   use run_data, only: run_t
-  use run_operator, only: factor_matrix
+  use run_operator, only: factor_matrix, kept_nodes
   use run_motion, only: find_given
   use run_static, only: add_shift
   use solid_block, only: force_rule_t, force_ends
-  use run_stage, only: add_contact, weigh_loads
+  use run_stage, only: add_contact, weigh_loads, follow
   use time_ledger, only: find_strain_energies
   implicit none
   private
-  public :: make_newton, iterates, solve_newton, close_newton, exchange_newton
+  public :: make_newton, choose_force, iterates, solve_newton, close_newton, exchange_newton
 
 contains
 
@@ -35,10 +35,20 @@ contains
     allocate (run%newton%residual, source=run%newton%d)
     if (run%plan%contact .and. any(run%model%controls%frame == [character(5) :: '', 'MID'])) &
         allocate (run%contact%half_motion, source=run%newton%d)
+    run%newton%length = maxval(maxval(run%model%x, dim=2) - minval(run%model%x, dim=2))
     run%newton%is_explicit = run%model%controls%is_explicit
-    run%system%force_rule = force_rule_t(kind=run%model%controls%force, &
-        before=one - run%scheme%stage(1)%c_k, now=run%scheme%stage(1)%c_k)
+    call choose_force(run)
   end subroutine make_newton
+
+  !> The force of a step in the scheme as it is; statics has that of the end.
+  subroutine choose_force(run)
+    type(run_t), intent(inout) :: run
+    associate (c_k => run%scheme%stage(1)%c_k)
+      run%system%force_rule = force_rule_t(kind=run%model%controls%force, before=one - c_k, &
+          now=c_k)
+    end associate
+    if (run%step%is_static) run%system%force_rule%kind = force_ends
+  end subroutine choose_force
 
   !> Does Newton's method find the motion of a step?
   pure logical function iterates(run)
@@ -54,6 +64,8 @@ contains
     real(wp), intent(in) :: t1
     logical, intent(out) :: acting
     type(status_t), intent(inout) :: status
+    !> Passes in which contact chooses its rows anew: later ones only turn between two choices.
+    integer, parameter :: most_choices = 14
     real(wp) :: change, last
     integer :: pass
     logical :: is_done
@@ -71,13 +83,16 @@ contains
       if (needs_factor(pass, change, last)) call factor_tangent(run, pass == 1, status)
       if (pass > 1) last = change
       if (pass == 1 .and. run%plan%motions) call push_motions(run, stage)
+      run%contact%keeps_rows = pass > most_choices
       call correct(run, acting, status)
-      if (failed(status)) return
+      if (failed(status)) exit
       call move_on(run, change, status)
-      if (failed(status)) return
+      if (failed(status)) exit
       run%newton%passes = run%newton%passes + 1
       run%newton%worst = max(run%newton%worst, pass)
     end do
+    run%contact%keeps_rows = .false.
+    if (failed(status)) return
     call count_work(run)
     if (.not. is_done) call fail(status, status_numerical, "Newton's method has not "// &
         'converged in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
@@ -160,7 +175,8 @@ contains
     is_done = .false.
     if (pass == 1) return
     motion = maxval(abs(run%x))
-    is_done = change <= run%newton%motion_tolerance*motion
+    is_done = change <= max(run%newton%motion_tolerance*motion, &
+        4.0_wp*epsilon(one)*run%newton%length)
     is_done = is_done .or. (change < floor*motion .and. (change > at_rest*last .or. &
         pass > enough))
   end subroutine judge
@@ -202,7 +218,7 @@ contains
     call run%solver%solve_schur(free)
     if (run%plan%contact) then
       if (allocated(run%contact%half_motion)) run%contact%half_motion = half*run%x
-      run%x_interface = run%x(:, run%contact%interface_node) + free
+      run%x_interface = run%x(:, kept_nodes(run)) + free
       call add_contact(run, acting, status)
       if (.not. acting) run%x_interface = free
     else
@@ -210,6 +226,7 @@ contains
     end if
     call run%solver%backward(run%x_interface, run%newton%d)
     run%solves = run%solves + 1
+    if (allocated(run%rigid)) call follow(run, run%newton%d)
     if (.not. run%plan%motions) return
     call set_fixed(run%system, run%given, run%newton%d)    ! given: what there is to go yet
   end subroutine correct

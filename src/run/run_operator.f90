@@ -17,7 +17,8 @@ module run_operator
   use run_rigid, only: link_interface, keep_flexibility
   implicit none
   private
-  public :: make_operators, change_operators, factor_matrix, size_factor, use_operator
+  public :: make_operators, change_operators, factor_matrix, size_factor, use_operator, &
+      kept_nodes
 
 contains
 

@@ -21,7 +21,7 @@ module run_setup
   use model_state, only: make_state
   use run_damping, only: make_damping, start_damping, update_damping
   use run_data, only: run_t
-  use run_newton, only: make_newton
+  use run_newton, only: make_newton, choose_force
   use run_motion, only: make_motions, start_reactions
   use run_operator, only: factor_matrix, size_factor, make_operators, change_operators
   use run_plan, only: make_plan, add_feature
@@ -270,6 +270,7 @@ contains
     if (run%plan%damping) call start_damping(run)
     if (run%plan%damping .and. run%plan%reactions) call start_reactions(run)
     call change_operators(run, again, status)
+    if (allocated(run%newton)) call choose_force(run)
     call factor_matrix(run, again, status)
     call plan_refinement(run)
   end subroutine start_dynamics

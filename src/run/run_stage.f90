@@ -22,7 +22,7 @@ module run_stage
   use time_ledger, only: largest_work
   implicit none
   private
-  public :: solve_stage, add_contact, weigh_loads
+  public :: solve_stage, add_contact, weigh_loads, follow
 
 contains
 

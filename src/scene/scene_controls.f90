@@ -382,6 +382,9 @@ contains
       if (second > 0) then
         controls%penetration_tolerance = deck%real(second, 'PENTOL')
         controls%frame = deck%word(second, 'FRAME')
+        if (controls%is_finite .and. controls%frame == 'REF') call deck%complain(second, &
+            'FRAME', 'normals of the reference have no meaning at finite deformation', &
+            'leave it blank, for MID')
         controls%rotation_warning = deck%real(second, 'ROTWARN')
         controls%dump_first = deck%integer(second, 'DFIRST')
         controls%dump_last = max(controls%dump_first, deck%integer(second, 'DLAST'))

@@ -81,8 +81,10 @@ contains
     do e = 1, model%mesh%n
       associate (p => model%mesh%part(e))
         if (model%mesh%is_of_type(e, 'TET4')) has_them(1, p) = .true.
-        if (any([model%mesh%is_of_type(e, 'HEX8'), model%mesh%is_of_type(e, 'WEDGE6'), &
-            model%mesh%is_of_type(e, 'PYRAMID5')])) has_them(2, p) = .true.
+        if (any([model%mesh%is_of_type(e, 'WEDGE6'), model%mesh%is_of_type(e, 'PYRAMID5')])) &
+            has_them(2, p) = .true.
+        if (model%mesh%is_of_type(e, 'HEX8') .and. .not. keeps_volume(model, p)) &
+            has_them(2, p) = .true.
       end associate
     end do
     do p = 1, size(model%part)
@@ -98,5 +100,14 @@ contains
       end if
     end do
   end subroutine warn_of_locking
+
+  !> Do the hexahedra of a part have mean dilatation by their law? So at finite deformation.
+  pure logical function keeps_volume(model, p)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: p
+    keeps_volume = model%controls%is_finite .and. model%controls%mean_dilatation /= 0
+    if (keeps_volume .and. model%controls%mean_dilatation < 0) keeps_volume = &
+        model%material(model%part(p)%material)%item%mean_dilatation
+  end function keeps_volume
 
 end module scene_faces

@@ -5,11 +5,12 @@ module scene_finite
   use base_kinds, only: zero, half
   use base_strings, only: to_text
   use deck_data, only: deck_t
+  use deck_problems, only: add_warning
   use model_data, only: model_t, controls_t
   use solid_block, only: force_ends, force_middle, force_conserving
   implicit none
   private
-  public :: read_kinematics, check_laws
+  public :: read_kinematics, check_laws, check_elements
 
   integer, parameter :: solver_linear = 1, solver_finite = 12
 
@@ -77,6 +78,8 @@ contains
     type(controls_t), intent(in) :: controls
     integer, intent(in) :: r
     logical :: is_built
+    call refuse_card(deck, 'DAMPING_PART_STIFFNESS', 'PID', 'damping by stiffness')
+    call refuse_card(deck, 'DAMPING_PART_STIFFNESS_SET', 'PSID', 'damping by stiffness')
     if (controls%is_static) return
     is_built = any(controls%scheme == [character(10) :: 'THETA', 'NEWMARK']) .or. &
         controls%scheme == 'PAOLI' .and. controls%is_explicit
@@ -90,6 +93,15 @@ contains
         'take CONSISTENT or LUMPED')
   end subroutine check_scheme
 
+  !> What a card asks for is not there at finite deformation.
+  subroutine refuse_card(deck, keyword, field, what)
+    type(deck_t), intent(inout) :: deck
+    character(*), intent(in) :: keyword, field, what
+    integer :: r
+    r = deck%next(keyword, 1, 0)
+    if (r > 0) call deck%complain(r, field, what//' is not available at finite deformation')
+  end subroutine refuse_card
+
   !> Each part needs a law of the kind that the deck asks for; parts and materials must have
   !> been read.
   subroutine check_laws(deck, model)
@@ -99,12 +111,38 @@ contains
     do p = 1, size(model%part)
       if (model%part(p)%material == 0) cycle
       associate (law => model%material(model%part(p)%material)%item)
-        if (model%controls%is_finite .and. .not. law%is_finite) call deck%complain( &
-            model%part(p)%record, 'MID', 'material '//to_text(law%id)//' of part '// &
-            to_text(model%part(p)%id)//' is not available at finite deformation', &
-            'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')
+        if (.not. model%controls%is_finite .or. law%is_finite .or. law%is_rigid) cycle
+        call deck%complain(model%part(p)%record, 'MID', 'material '//to_text(law%id)// &
+            ' of part '//to_text(model%part(p)%id)//' is not available at finite '// &
+            'deformation', 'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')
       end associate
     end do
   end subroutine check_laws
+
+  !> Elements that finite deformation has no form of, and those that lock under laws that keep
+  !> the volume; elements must have been read.
+  subroutine check_elements(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(in) :: model
+    logical :: locks(size(model%part)), is_refused(size(model%part))
+    integer :: e, p
+    if (.not. model%controls%is_finite) return
+    locks = .false.
+    is_refused = .false.
+    do e = 1, model%mesh%n
+      p = model%mesh%part(e)
+      if (any([model%mesh%is_of_type(e, 'TRI3'), model%mesh%is_of_type(e, 'TET4')])) &
+          locks(p) = model%material(model%part(p)%material)%item%mean_dilatation
+      if (model%mesh%is_of_type(e, 'HEX8MODE')) is_refused(p) = .true.
+    end do
+    do p = 1, size(model%part)
+      if (locks(p)) call add_warning(deck%problems, 'locking', 'part '// &
+          to_text(model%part(p)%id)//' locks: constant strain and a law that keeps the '// &
+          'volume; take quadrilaterals or hexahedra, which have mean dilatation')
+      if (is_refused(p)) call deck%complain(model%part(p)%record, 'SECID', 'part '// &
+          to_text(model%part(p)%id)//': hexahedra with incompatible modes are not '// &
+          'available at finite deformation', 'take ELFORM 1, or 2 for mean dilatation')
+    end do
+  end subroutine check_elements
 
 end module scene_finite

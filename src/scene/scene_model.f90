@@ -24,7 +24,7 @@ module scene_model
   use scene_rigid_space, only: read_rigid_in_space
   use scene_sets, only: read_sets
   use scene_explicit, only: find_step
-  use scene_finite, only: check_laws
+  use scene_finite, only: check_laws, check_elements
   use scene_walls, only: read_walls, add_bodies
   implicit none
   private
@@ -53,6 +53,7 @@ contains
     end if
     if (deck%problems%count == 0) then
       call check_mesh(deck, model)
+      call check_elements(deck, model)
       call check_mass(deck, model)
     end if
     if (deck%problems%count == 0) then

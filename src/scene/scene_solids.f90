@@ -54,18 +54,18 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
     integer, allocatable :: record(:), large(:)
-    integer :: k, part, nodes, node(most_nodes), moved
+    integer :: k, part, nodes, node(most_nodes), moved, linear
     character(8) :: name
     call records_of(deck, 'ELEMENT_SOLID', 1, record)
     call records_of(deck, 'ELEMENT_SOLID_H27', 1, large)
     call model%mesh%start(size(record) + size(large), 10*size(record) + 27*size(large))
     moved = 0
-    do k = 1, size(record) + size(large)
-      if (k <= size(record)) call read_nodes(deck, record(k), maps, node, name, nodes)
-      if (k > size(record)) &
-          call read_27(deck, large(k - size(record)), maps, node, name, nodes)
-      associate (r => merge(record(min(k, size(record))), &
-          large(max(1, k - size(record))), k <= size(record)))
+    linear = size(record)
+    record = [record, large]
+    do k = 1, size(record)
+      associate (r => record(k))
+        if (k <= linear) call read_nodes(deck, r, maps, node, name, nodes)
+        if (k > linear) call read_27(deck, r, maps, node, name, nodes)
         part = part_of_element(deck, maps, r)
         if (nodes > 8) call take_places(model, name, node(:nodes), moved)
         if (part > 0) call take_form(deck, model, r, part, name)

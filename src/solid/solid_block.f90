@@ -9,7 +9,7 @@
 !>               1992; Gonzalez 2000).
 module solid_block
   use base_kinds, only: wp, zero, one, half
-  use element_base, only: element_t, most_points, strains
+  use element_base, only: element_t, most_points, most_nodes, strains
   use linalg_dense, only: cross
   use material_base, only: material_t
   use material_plane, only: respond_as, places_of
@@ -235,15 +235,17 @@ contains
     type(coupling_t), intent(inout), optional :: coupling
     real(wp), parameter :: least = 2.5e-11_wp    ! of |dE|^2 = |dC|^2/4
     real(wp), dimension(solid%strains, solid%points) :: e0, e1, s_end
-    real(wp) :: h1(solid%dim, solid%dim), energy, change, work, length
+    real(wp) :: h1(3, 3), end(3, most_nodes), energy, change, work, length
     real(wp) :: no_moduli(solid%strains, solid%strains, solid%points)
     integer :: g
+    end(:solid%dim, :solid%nodes) = a + x
     do g = 1, solid%points
       call displacement_gradient(a, solid%slope(:, :, g, k), h(:, :, g))
       call green_strain(h(:, :, g), e0(:, g))
-      call displacement_gradient(a + x, solid%slope(:, :, g, k), h1)
-      call green_strain(h1, e1(:, g))
-      h(:, :, g) = half*(h(:, :, g) + h1)
+      call displacement_gradient(end(:solid%dim, :solid%nodes), solid%slope(:, :, g, k), &
+          h1(:solid%dim, :solid%dim))
+      call green_strain(h1(:solid%dim, :solid%dim), e1(:, g))
+      h(:, :, g) = half*(h(:, :, g) + h1(:solid%dim, :solid%dim))
     end do
     if (solid%material%states > 0) then
       call respond(solid, k, e1, with_moduli, s, d, energy, coupling)
@@ -326,8 +328,8 @@ contains
         call add_geometric_part(rule%geometric*w, s(:, g), slope, ke)
       end associate
       if (.not. solid%is_mean) cycle
-      to_g = to_g + matmul(coupling%g(:, g), b)
-      to_b = to_b + matmul(coupling%b(:, g), b)
+      to_g = to_g + matmul(coupling%g(:solid%strains, g), b)
+      to_b = to_b + matmul(coupling%b(:solid%strains, g), b)
     end do
     if (solid%is_mean) call add_coupling(merge(one, factor, stress_of_end(solid, rule)), &
         coupling%z, to_g, to_b, ke)

@@ -23,9 +23,10 @@ contains
     real(wp), dimension(6, solid%points) :: e, s
     real(wp) :: a(solid%dim, solid%nodes), f(3, 3, solid%points), volume
     integer :: g
+    stress = zero
+    if (solid%n == 0) return    ! of a rigid part
     call relative(solid, k, u, a)
     call stresses_in_space(solid, k, a, f, e, s)
-    stress = zero
     volume = zero
     do g = 1, solid%points
       if (solid%dim == 2) f(3, 3, g) = sqrt(one + two*e(3, g))

@@ -17,7 +17,25 @@ contains
   pure subroutine displacement_gradient(u, slope, h)
     real(wp), intent(in) :: u(:, :), slope(:, :)
     real(wp), intent(out) :: h(:, :)
+    real(wp) :: h11, h21, h12, h22
     integer :: a, i, j
+    if (size(u, 1) == 2) then
+      h11 = zero
+      h21 = zero
+      h12 = zero
+      h22 = zero
+      do a = 2, size(u, 2)
+        h11 = h11 + u(1, a)*slope(a, 1)
+        h21 = h21 + u(2, a)*slope(a, 1)
+        h12 = h12 + u(1, a)*slope(a, 2)
+        h22 = h22 + u(2, a)*slope(a, 2)
+      end do
+      h(1, 1) = h11
+      h(2, 1) = h21
+      h(1, 2) = h12
+      h(2, 2) = h22
+      return
+    end if
     h = zero
     do j = 1, size(h, 2)
       do a = 2, size(u, 2)
@@ -80,32 +98,45 @@ contains
   pure subroutine add_stress_force(factor, h, s, slope, force)
     real(wp), intent(in) :: factor, h(:, :), s(:), slope(:, :)
     real(wp), intent(inout) :: force(:, :)
-    real(wp) :: p(size(h, 1), size(h, 1)), stress(size(h, 1), size(h, 1))
-    integer :: a, i, j
-    stress = factor*square(s)
-    p = stress
-    do j = 1, size(h, 1)
-      do i = 1, size(h, 1)
-        p(i, j) = p(i, j) + dot_product(h(i, :), stress(:, j))
+    real(wp) :: p(3, 3), stress(3, 3)
+    integer :: a, i, j, d
+    d = size(h, 1)
+    call put_stress(factor, s, stress)
+    do j = 1, d
+      do i = 1, d
+        p(i, j) = stress(i, j) + h(i, 1)*stress(1, j) + h(i, 2)*stress(2, j)
+        if (d == 3) p(i, j) = p(i, j) + h(i, 3)*stress(3, j)
       end do
     end do
     do a = 1, size(slope, 1)
-      do j = 1, size(h, 1)
-        force(:, a) = force(:, a) + p(:, j)*slope(a, j)
+      do i = 1, d
+        force(i, a) = force(i, a) + p(i, 1)*slope(a, 1) + p(i, 2)*slope(a, 2)
+        if (d == 3) force(i, a) = force(i, a) + p(i, 3)*slope(a, 3)
       end do
     end do
   end subroutine add_stress_force
 
-  !> The stress as a matrix.
-  pure function square(s) result(stress)
-    real(wp), intent(in) :: s(:)
-    real(wp) :: stress(size(s)/2 + mod(size(s), 2), size(s)/2 + mod(size(s), 2))
+  !> factor times the stress, as a matrix of a size that needs no memory anew.
+  pure subroutine put_stress(factor, s, stress)
+    real(wp), intent(in) :: factor, s(:)
+    real(wp), intent(out) :: stress(3, 3)
     if (size(s) == 3) then
-      stress = reshape([s(1), s(3), s(3), s(2)], [2, 2])
+      stress(1, 1) = factor*s(1)
+      stress(2, 2) = factor*s(2)
+      stress(2, 1) = factor*s(3)
+      stress(1, 2) = stress(2, 1)
     else
-      stress = reshape([s(1), s(4), s(6), s(4), s(2), s(5), s(6), s(5), s(3)], [3, 3])
+      stress(1, 1) = factor*s(1)
+      stress(2, 2) = factor*s(2)
+      stress(3, 3) = factor*s(3)
+      stress(2, 1) = factor*s(4)
+      stress(3, 2) = factor*s(5)
+      stress(3, 1) = factor*s(6)
+      stress(1, 2) = stress(2, 1)
+      stress(2, 3) = stress(3, 2)
+      stress(1, 3) = stress(3, 1)
     end if
-  end function square
+  end subroutine put_stress
 
   !> ke = ke + factor B' D B.
   pure subroutine add_material_part(factor, d, b, ke)
@@ -128,14 +159,18 @@ contains
   pure subroutine add_geometric_part(factor, s, slope, ke)
     real(wp), intent(in) :: factor, s(:), slope(:, :)
     real(wp), intent(inout) :: ke(:, :)
-    real(wp) :: row(size(slope, 2)), stress(size(slope, 2), size(slope, 2)), value
+    real(wp) :: row(3), stress(3, 3), value
     integer :: a, b, i, d
     d = size(slope, 2)
-    stress = factor*square(s)
+    call put_stress(factor, s, stress)
     do b = 1, size(slope, 1)
-      row = matmul(stress, slope(b, :))
+      do i = 1, d
+        row(i) = stress(i, 1)*slope(b, 1) + stress(i, 2)*slope(b, 2)
+        if (d == 3) row(i) = row(i) + stress(i, 3)*slope(b, 3)
+      end do
       do a = 1, size(slope, 1)
-        value = dot_product(slope(a, :), row)
+        value = slope(a, 1)*row(1) + slope(a, 2)*row(2)
+        if (d == 3) value = value + slope(a, 3)*row(3)
         do i = 1, d
           ke(d*(a - 1) + i, d*(b - 1) + i) = ke(d*(a - 1) + i, d*(b - 1) + i) + value
         end do
