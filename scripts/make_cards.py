@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Write a deck that shows every keyword once: make_cards.py [-o FILE] [--bin bin/bipact]; with
---space a second one, of the keywords of models in space.
+--space a second one, of the keywords of models in space, with --finite a third, of finite deformation.
 
 Columns, names and help come from `bipact --keywords`, so the deck cannot fall behind the table;
 the values, below, make a scene that runs: a block of quadrilaterals and triangles flies at a
 held base, a rigid body beside it, with loads, a moved edge and every table. make doc writes it to
-input/cards/every_keyword.k, the second to every_keyword_in_space.k there."""
+input/cards/every_keyword.k, the others to every_keyword_in_space.k and
+every_keyword_at_finite_deformation.k there."""
 
 import argparse
 import os
@@ -32,14 +33,6 @@ RIGID_QUADS = [(21, 3, 201, 202, 203, 204), (22, 4, 211, 212, 213, 214)]
 OTHER_NAMES = {
     "DATABASE_GLSTAT_MASS_PROPERTIES", "CONTACT_SURFACE_TO_SURFACE", "CONTACT_NODES_TO_SURFACE",
     "CONTACT_SINGLE_SURFACE",
-}
-
-# Laws of finite strain: no deck with one of these runs as long as NSOLVR 12 is not available.
-UNSHOWN = {
-    "BIPACT_KINEMATICS", "MAT_BLATZ-KO_RUBBER", "MAT_007", "MAT_BLATZ-KO_FOAM", "MAT_038",
-    "MAT_MOONEY-RIVLIN_RUBBER", "MAT_027", "MAT_OGDEN_RUBBER", "MAT_077_O",
-    "MAT_HYPERELASTIC_RUBBER", "MAT_077_H", "MAT_PLASTIC_KINEMATIC", "MAT_003",
-    "MAT_PIECEWISE_LINEAR_PLASTICITY", "MAT_024",
 }
 
 # keyword: its cards, each a dictionary of the fields that are not left blank
@@ -326,6 +319,64 @@ PARAMETERS = [
 ]
 
 
+# Laws of finite strain, each with both its names: cards but for MID and RO.
+LAWS = (
+    ("MAT_BLATZ-KO_RUBBER", "MAT_007", [{"G": 34.0}]),
+    ("MAT_BLATZ-KO_FOAM", "MAT_038", [{"G": 40.0}]),
+    ("MAT_MOONEY-RIVLIN_RUBBER", "MAT_027", [{"PR": 0.49, "A": 14.0, "B": 3.0}]),
+    ("MAT_OGDEN_RUBBER", "MAT_077_O", [{"PR": 0.49}, {"MU1": 20.0, "MU2": -1.0}, {"ALPHA1": 3.0, "ALPHA2": -2.0}]),
+    ("MAT_HYPERELASTIC_RUBBER", "MAT_077_H", [{"PR": 0.45}, {"C10": 17.0}]),
+    ("MAT_PLASTIC_KINEMATIC", "MAT_003", [{"E": 100.0, "PR": 0.3, "SIGY": 1.0, "ETAN": 5.0, "BETA": 0.5}]),
+    (
+        "MAT_PIECEWISE_LINEAR_PLASTICITY",
+        "MAT_024",
+        [
+            {"E": 100.0, "PR": 0.3, "SIGY": 1.0},
+            {},
+            {"EPS1": 0.0, "EPS2": 0.05, "EPS3": 0.5},
+            {"ES1": 1.0, "ES2": 1.5, "ES3": 2.0},
+        ],
+    ),
+)
+
+
+def finite_scene():
+    """A square of each law for each of its names, pulled apart by the velocity of its right edge."""
+    names = [(name, cards) for law in LAWS for name, cards in ((law[0], law[2]), (law[1], law[2]))]
+    squares = range(1, len(names) + 1)
+    corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    places = [(10 * k + n, x, 2.0 * k + y) for k in squares for n, (x, y) in enumerate(corners, 1)]
+    scene = [
+        ("TITLE", [{"TITLE": "laws of finite strain"}]),
+        ("CONTROL_TERMINATION", [{"ENDTIM": 0.02}]),
+        ("CONTROL_IMPLICIT_GENERAL", [{"IMFLAG": 1, "DT0": "5.0E-4"}]),
+        ("CONTROL_IMPLICIT_DYNAMICS", [{"IMASS": 1}]),
+        ("CONTROL_IMPLICIT_SOLUTION", [{"NSOLVR": 12}]),
+        ("BIPACT_KINEMATICS", [{"FORCE": "EMC", "QP0": "AUTO"}]),
+        ("BIPACT_TIME", [{"SCHEME": "THETA"}]),
+        ("NODE", [{"NID": n, "X": x, "Y": y} for n, x, y in places]),
+        (
+            "ELEMENT_SHELL",
+            [{"EID": k, "PID": k, **{"N%d" % n: 10 * k + n for n in range(1, 5)}} for k in squares],
+        ),
+        ("PART", sum(([{"HEADING": n}, {"PID": k, "SECID": 1, "MID": k}] for k, (n, _) in enumerate(names, 1)), [])),
+        ("SECTION_SHELL", [{"SECID": 1, "ELFORM": 13}, {"T1": 1.0}]),
+    ]
+    for k, (name, cards) in enumerate(names, 1):
+        scene.append((name, [{"MID": k, "RO": "1.0E-3", **cards[0]}] + cards[1:]))
+    pulled = [n for n, x, _ in places if x > 0.0]
+    scene.append(("INITIAL_VELOCITY_NODE", [{"NID": n, "VX": 20.0} for n in pulled]))
+    scene.append(("DATABASE_HISTORY_SHELL", [{"ID%d" % k: k for k in range(1, 9)}]))
+    return scene + [("DATABASE_" + n, [{"DT": 0.002}]) for n in ("GLSTAT", "MATSUM", "ELOUT")]
+
+
+HEAD_AT_FINITE_DEFORMATION = [
+    "$ The keywords of finite deformation, written by scripts/make_cards.py from the program's own "
+    "table;",
+    "$ every_keyword.k has the others. Squares of each law are pulled apart. Units: any consistent "
+    "set.",
+    "*KEYWORD",
+]
 HEAD_IN_SPACE = [
     "$ The keywords of models in space, written by scripts/make_cards.py from the program's own "
     "table;",
@@ -388,14 +439,16 @@ def header(layout):
     return out
 
 
-def deck(program, in_space):
-    """The whole text."""
+def deck(program, kind):
+    """The whole text of a deck: in the "plane", in "space", "finite"."""
     found = layouts(program)
-    shown = {name for name, _ in SCENE + IN_SPACE}
-    missing = sorted(set(found) - shown - OTHER_NAMES - UNSHOWN)
+    at_finite = finite_scene()
+    shown = {name for name, _ in SCENE + IN_SPACE + at_finite}
+    missing = sorted(set(found) - shown - OTHER_NAMES)
     if missing:
         raise SystemExit("make_cards.py does not show: " + " ".join(missing))
-    out = HEAD_IN_SPACE[:] if in_space else [
+    heads = {"space": HEAD_IN_SPACE, "finite": HEAD_AT_FINITE_DEFORMATION}
+    out = heads[kind][:] if kind in heads else [
         "$ Every keyword of bipact once, written by scripts/make_cards.py from the program's own "
         "table.",
         "$ A block of quadrilaterals and triangles falls on a held base. Units: any consistent "
@@ -404,9 +457,9 @@ def deck(program, in_space):
         "*PARAMETER",
         "$#   name1    value1     name2    value2     name3    value3     " "name4    value4",
     ]
-    for k in range(0, 0 if in_space else len(PARAMETERS), 4):
+    for k in range(0, len(PARAMETERS) if kind == "plane" else 0, 4):
         out.append("".join(n.ljust(10) + v.rjust(10) for n, v in PARAMETERS[k : k + 4]))
-    for name, cards in IN_SPACE if in_space else SCENE:
+    for name, cards in {"space": IN_SPACE, "finite": at_finite}.get(kind, SCENE):
         text, repeat, layout = found[name]
         out += ["$", "$ " + text, "*" + name]
         for k, values in enumerate(cards):
@@ -427,9 +480,11 @@ def main():
     )
     parser.add_argument("-o", metavar="FILE", help="deck (default: to stdout)")
     parser.add_argument("--bin", default=startup.program(), help="program")
-    parser.add_argument("--space", action="store_true", help="the keywords of models in space")
+    kinds = parser.add_mutually_exclusive_group()
+    kinds.add_argument("--space", action="store_true", help="the keywords of models in space")
+    kinds.add_argument("--finite", action="store_true", help="those of finite deformation")
     a = parser.parse_args()
-    text = deck(a.bin, a.space)
+    text = deck(a.bin, "space" if a.space else "finite" if a.finite else "plane")
     if a.o:
         with open(a.o, "w", encoding="ascii") as out:
             out.write(text)

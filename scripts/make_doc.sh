@@ -12,3 +12,4 @@ program=${BIPACT:-bin/bipact}
 } > "$page"
 "${PYTHON:-python3}" scripts/make_cards.py --bin "$program" -o "$folder/every_keyword.k"
 "${PYTHON:-python3}" scripts/make_cards.py --bin "$program" --space -o "$folder/every_keyword_in_space.k"
+"${PYTHON:-python3}" scripts/make_cards.py --bin "$program" --finite -o "$folder/every_keyword_at_finite_deformation.k"

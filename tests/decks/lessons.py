@@ -1,4 +1,4 @@
-"""Runs the decks of input/lessons and input/space and checks what each of them says to expect:
+"""Runs the decks of input/lessons, input/space and input/finite and checks what each of them says to expect:
 $ expect: TABLE [ID=N] COLUMN last VALUE +- TOLERANCE, or TABLE COLUMN max VALUE at least."""
 
 import glob
@@ -47,7 +47,7 @@ def solved(deck):
 
 def main():
     decks = []
-    for folder in ("lessons", "space"):
+    for folder in ("lessons", "space", "finite"):
         decks += sorted(glob.glob(os.path.join(scenes.ROOT, "input", folder, "*.k")))
     check(len(decks) >= 8, "the lessons are there")
     for deck in decks:

@@ -5,7 +5,7 @@ set -euo pipefail
 scripts="$ROOT/scripts"
 "$scripts/make_doc.sh" "$TMP/deck.md" "$TMP"
 diff -u "$ROOT/doc/deck.md" "$TMP/deck.md" || { echo "doc/deck.md is stale: run make doc"; exit 1; }
-for deck in every_keyword every_keyword_in_space; do
+for deck in every_keyword every_keyword_in_space every_keyword_at_finite_deformation; do
   diff -u "$ROOT/input/cards/$deck.k" "$TMP/$deck.k" \
     || { echo "input/cards/$deck.k is stale: run make doc"; exit 1; }
   (

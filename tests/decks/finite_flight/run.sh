@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# finite_flight in finite.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/finite.py" finite_flight
