@@ -16,6 +16,7 @@ ELEMENT = "       1       1       1       2       3       4"
 MATERIAL = "         1     0.001    1000.0       0.3"
 CURVE = "*DEFINE_CURVE\n1,\n0.0,1.0\n0.1,1.0\n"
 EXPRESSION = "*PARAMETER_EXPRESSION\n"
+FINITE = "*CONTROL_IMPLICIT_SOLUTION\n        12\n"
 EXPLICIT = "PAOLI,,,,,,0.0"
 PARAMETER = "Rtend           0.01Rdt            1e-03"
 RIGID = ("*MAT_ELASTIC\n" + MATERIAL, "*MAT_RIGID\n         1     0.001\n\n")
@@ -194,6 +195,21 @@ BASE_FAULTS = [
     ),
     ("a nonlinear solver that is not there", "*END", "*CONTROL_IMPLICIT_SOLUTION\n         6\n*END"),
     ("kinematics of a linear deck", "*END", "*BIPACT_KINEMATICS\nEMC\n*END"),
+    ("a force of a step that is not there", "*END", FINITE + "*BIPACT_KINEMATICS\nENDS\n*END"),
+    ("another elastic law", "*END", FINITE + "*BIPACT_KINEMATICS\n,HENCKY\n*END"),
+    ("mean dilatation neither on nor off", "*END", FINITE + "*BIPACT_KINEMATICS\n,,2\n*END"),
+    ("a force of another scheme", "*END", FINITE + "*BIPACT_KINEMATICS\nEMC\n*END",
+     "     THETA       0.5", "   NEWMARK"),
+    ("a force of the middle and an xi", "*END", FINITE + "*END",
+     "     THETA       0.5", "     THETA       0.5       0.7"),
+    ("a scheme without finite deformation", "*END", FINITE + "*END", "     THETA       0.5", "    MOREAU"),
+    ("implicit Paoli at finite deformation", "*END", FINITE + "*END", "     THETA       0.5", "     PAOLI"),
+    ("massless nodes at finite deformation", "*END", FINITE + "*BIPACT_MASS\nLUMPED,1\n*END"),
+    ("dispersion at finite deformation", "*END", FINITE + "*BIPACT_MASS\nDISPERSION,\n*END"),
+    ("damping by stiffness at finite deformation", "*END",
+     FINITE + "*DAMPING_PART_STIFFNESS\n1,-1e-5\n*END"),
+    ("damping of a set by stiffness at finite deformation", "*END",
+     FINITE + "*SET_PART_LIST\n1,\n1,\n*DAMPING_PART_STIFFNESS_SET\n1,-1e-5\n*END"),
     ("automatic steps of another kind", "*END", "*CONTROL_IMPLICIT_AUTO\n         2\n*END"),
     ("longest step", "*END", "*CONTROL_IMPLICIT_AUTO\n1,,,,0.01\n*END"),
     ("automatic steps and own steps", "*END", "*CONTROL_IMPLICIT_AUTO\n1,\n*BIPACT_STEP\n,\n*END"),
@@ -769,6 +785,8 @@ SECOND = "       2       1       2       3       6       5       8       9      
 FORM = "*SECTION_SOLID\n         1         2"
 SEGMENT = "         7         8        11        10"
 SPACE_FAULTS = [
+    ("incompatible modes at finite deformation", "*END", FINITE + "*END",
+     "*SECTION_SOLID\n         1         2", "*SECTION_SOLID\n         1        -1"),
     ("nodes that repeat otherwise", FIRST, "1,1,1,2,5,4,7,7,11,10"),
     ("a hexahedron of four nodes", FIRST, "1,1,1,2,5,4"),
     ("one node twice in a tetrahedron", SECOND, "2,1,2,3,3,8,8,8,8,8"),
