@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The elements in blocks of one type and part, each with its nodes and stiffness.
 module assembly_blocks
+  use assembly_ring, only: ring_unknowns
   use base_kinds, only: wp, zero
   use model_data, only: model_t
   use model_mesh, only: block_t
@@ -10,10 +11,11 @@ module assembly_blocks
   type, extends(block_t), public :: element_block_t
     integer :: nodes = 0                    !< of an element
     logical :: is_rigid = .false.           !< never strained: no stiffness, not on the graph
+    logical :: is_ring = .false.            !< its elements are turned about the y axis
     integer, allocatable :: node(:, :)      !< (nodes, n) rows of nodes
     !> (m, m, n) stiffness of the other nodes relative to node 1, m = dim (nodes - 1) [F/L]: a
     !> translation of the element drops out before anything is multiplied, so a flying body has
-    !> no internal force at all.
+    !> no internal force at all. Of a ring that of the unknowns of assembly_ring.
     real(wp), allocatable :: stiffness(:, :, :)
   end type element_block_t
 
@@ -32,6 +34,7 @@ contains
       associate (own => block(b), from => model%mesh%block(b), mesh => model%mesh)
         own%block_t = from
         own%is_rigid = model%part(from%part)%is_rigid
+        own%is_ring = mesh%kind(from%type)%item%is_ring
         own%nodes = mesh%count_of(from%first)
         n = from%last - from%first + 1
         own%node = reshape(mesh%node(mesh%first(from%first):mesh%first(from%last + 1) - 1), &
@@ -55,16 +58,22 @@ contains
     type(model_t), intent(in) :: model
     type(element_block_t), intent(inout) :: block
     real(wp), allocatable :: ke(:, :), moduli(:, :)
+    integer, allocatable :: dof(:)
     integer :: i, m, d
     d = size(model%x, 1)
     m = d*block%nodes
-    allocate (ke(m, m), block%stiffness(m - d, m - d, size(block%node, 2)))
+    if (block%is_ring) then
+      dof = ring_unknowns(block%nodes)
+    else
+      dof = [(i, i=d + 1, m)]
+    end if
+    allocate (ke(m, m), block%stiffness(size(dof), size(dof), size(block%node, 2)))
     associate (part => model%part(block%part), &
         element => model%mesh%kind(block%type)%item)
       moduli = model%material(part%material)%item%moduli(part%plane)
       do i = 1, size(block%node, 2)
         call element%stiffness(model%x(:, block%node(:, i)), moduli, part%thickness, ke)
-        block%stiffness(:, :, i) = ke(d + 1:, d + 1:)
+        block%stiffness(:, :, i) = ke(dof, dof)
       end do
     end associate
   end subroutine block_stiffness

@@ -6,6 +6,7 @@ module assembly_forces
   use base_kinds, only: wp, zero, one, half
   use element_base, only: most_nodes
   use assembly_blocks, only: element_block_t
+  use assembly_ring, only: subtract_ring_forces, ring_product
   use assembly_solid, only: subtract_solid_force, add_solid_energy
   use assembly_system, only: system_t
   use model_data, only: model_t, curve_value
@@ -71,7 +72,10 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
-    if (system%dim == 2 .and. block%nodes == 4) then
+    if (block%is_ring) then
+      call subtract_ring_forces(block%node(:, from:from + n - 1), &
+          block%stiffness(:, :, from:from + n - 1), factor, u, f)
+    else if (system%dim == 2 .and. block%nodes == 4) then
       call four_nodes(n, system%n, block%node(1, from), block%stiffness(1, 1, from), factor, &
           u, f)
     else
@@ -198,7 +202,11 @@ contains
     real(wp), intent(inout) :: total
     integer :: i
     if (block%is_rigid) return
-    if (system%dim == 2 .and. block%nodes == 4) then
+    if (block%is_ring) then
+      do i = 1, size(block%node, 2)
+        total = total + factor*ring_product(block%node(:, i), block%stiffness(:, :, i), u)
+      end do
+    else if (system%dim == 2 .and. block%nodes == 4) then
       do i = 1, size(block%node, 2)
         total = total + factor*product_of_four(system%n, block%node(1, i), &
             block%stiffness(1, 1, i), u)
@@ -239,7 +247,9 @@ contains
       if (block%is_rigid) return
       associate (node => block%node(:, e - block%first + 1), &
           k => block%stiffness(:, :, e - block%first + 1))
-        if (system%dim == 2 .and. block%nodes == 4) then
+        if (block%is_ring) then
+          element_product = ring_product(node, k, u)
+        else if (system%dim == 2 .and. block%nodes == 4) then
           element_product = product_of_four(system%n, node(1), k(1, 1), u)
         else
           element_product = product_of_any(node, k, u)

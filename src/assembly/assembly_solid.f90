@@ -10,7 +10,7 @@ module assembly_solid
   use material_base, only: material_t, plane_stress
   use model_data, only: model_t
   use solid_block, only: solid_t, force_rule_t, make_solid, begin_step, commit_step, &
-      element_force, element_tangent, element_energy, smallest_determinant
+      element_force, element_tangent, element_energy, smallest_determinant, relative
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
@@ -50,7 +50,7 @@ contains
     select case (element%name)
     case ('HEX8MEAN')
       takes_mean = .true.
-    case ('QUAD4', 'HEX8')
+    case ('QUAD4', 'QUAD4AX', 'HEX8')
       takes_mean = model%controls%mean_dilatation == 1 .or. &
           model%controls%mean_dilatation == -1 .and. material%mean_dilatation
     end select
@@ -83,16 +83,18 @@ contains
     real(wp), intent(in) :: factor, u0(:, :), x(:, :)
     real(wp), intent(inout) :: f(:, :)
     real(wp), intent(out), optional :: work
-    real(wp) :: force(size(f, 1), most_nodes), total
+    real(wp), dimension(size(f, 1), most_nodes) :: force, d
+    real(wp) :: total
     integer :: b, k, i
     total = zero
     do b = 1, size(solid)
       associate (s => solid(b))
         do k = 1, s%n
           call element_force(s, k, rule, u0, x, force(:, :s%nodes))
+          call relative(s, k, x, d(:, :s%nodes))
           do i = 1, s%nodes
             f(:, s%node(i, k)) = f(:, s%node(i, k)) - factor*force(:, i)
-            total = total + dot_product(force(:, i), x(:, s%node(i, k)) - x(:, s%node(1, k)))
+            total = total + dot_product(force(:, i), d(:, i))
           end do
         end do
       end associate

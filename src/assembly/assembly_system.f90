@@ -8,6 +8,7 @@ module assembly_system
   use assembly_blocks, only: element_block_t, make_blocks, assemble_stiffness, &
       whole_stiffness, largest_stiffness
   use assembly_mass, only: assemble_mass, redistribution_targets
+  use assembly_ring, only: whole_ring_stiffness
   use assembly_solid, only: make_solids, add_solid_tangents
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
       scalar_products, scalar_rows
@@ -331,7 +332,11 @@ contains
     associate (block => system%block(system%block_of(e)))
       if (block%is_rigid) return
       associate (node => block%node(:, e - block%first + 1))
-        call whole_stiffness(d, factor, block%stiffness(:, :, e - block%first + 1), ke)
+        if (block%is_ring) then
+          call whole_ring_stiffness(factor, block%stiffness(:, :, e - block%first + 1), ke)
+        else
+          call whole_stiffness(d, factor, block%stiffness(:, :, e - block%first + 1), ke)
+        end if
         do j = 1, block%nodes
           do i = 1, block%nodes
             k = system%graph%position(node(i), node(j))

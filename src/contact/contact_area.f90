@@ -2,12 +2,13 @@
 !> Forces on the nodes of a pairing for tables and fields, and the area that carries them:
 !> that of the boundary which something faces.
 module contact_area
-  use base_kinds, only: wp, zero, one, half
+  use base_kinds, only: wp, zero, one, two, half
   use cone_types, only: contact_open
   use contact_features, only: normal_between, difference
   use contact_pairing, only: pairing_t, node_forces_t, no_gap
   use contact_surface, only: surface_t
   use contact_types, only: contact_t
+  use model_areas, only: ring_factors
   use model_data, only: model_t
   implicit none
   private
@@ -57,8 +58,9 @@ contains
   end subroutine find_all_areas
 
   !> Area of every near node at X + U: the integral of its shape function over the part of its
-  !> edges that edges of the other side cover, times the thickness. Where nearly nothing
-  !> covers a node (a tip on a face), and at walls, half of the edges that face.
+  !> edges that edges of the other side cover, times the thickness, around an axis times the
+  !> circle. Where nearly nothing covers a node (a tip on a face), and at walls, half of the
+  !> edges that face.
   subroutine find_areas(model, pairing, u)
     type(model_t), intent(in) :: model
     class(pairing_t), intent(inout) :: pairing
@@ -86,7 +88,7 @@ contains
     logical, intent(in) :: is_wall
     integer, intent(in) :: before
     type(node_forces_t), intent(inout) :: nodal
-    real(wp) :: share(2), thickness
+    real(wp) :: share(2), second, thickness(2)
     integer :: e, k, n, node(2)
     nodal%around = zero
     do e = 1, size(own%length)
@@ -99,10 +101,19 @@ contains
       n = 0
       if (.not. is_wall) &
           call covering(own, other, e, model%x, u, nodal%low, nodal%high, n)
-      call integrate(nodal%low, nodal%high, n, share)
+      call integrate(nodal%low, nodal%high, n, share, second)
+      if (model%is_axisymmetric) then
+        associate (r => model%x(1, own%end_node(:, e)))
+          share = two*acos(-one)*ring_shares(r, share, second)
+          thickness = ring_factors(r)
+        end associate
+        nodal%area(node) = nodal%area(node) + share*own%length(e)
+        nodal%around(node) = nodal%around(node) + half*own%length(e)*thickness
+        cycle
+      end if
       do k = 1, 2
-        nodal%area(node(k)) = nodal%area(node(k)) + share(k)*own%length(e)*thickness
-        nodal%around(node(k)) = nodal%around(node(k)) + half*own%length(e)*thickness
+        nodal%area(node(k)) = nodal%area(node(k)) + share(k)*own%length(e)*thickness(k)
+        nodal%around(node(k)) = nodal%around(node(k)) + half*own%length(e)*thickness(k)
       end do
     end do
     do k = before + 1, before + size(own%node)
@@ -143,14 +154,24 @@ contains
     end associate
   end subroutine covering
 
-  !> Integrals of 1 - s and s over the union of intervals.
-  pure subroutine integrate(low, high, n, share)
+  !> Integrals of (1 - s) r and s r from those of 1 - s, s and s^2, with r linear between r(1)
+  !> and r(2).
+  pure function ring_shares(r, share, second) result(weighted)
+    real(wp), intent(in) :: r(2), share(2), second
+    real(wp) :: weighted(2)
+    weighted = [r(1)*(share(1) - share(2) + second) + r(2)*(share(2) - second), &
+        r(1)*(share(2) - second) + r(2)*second]
+  end function ring_shares
+
+  !> Integrals of 1 - s and s over the union of intervals, and of s^2.
+  pure subroutine integrate(low, high, n, share, second)
     real(wp), intent(inout) :: low(:), high(:)
     integer, intent(in) :: n
-    real(wp), intent(out) :: share(2)
+    real(wp), intent(out) :: share(2), second
     real(wp) :: a, b, end
     integer :: i, j
     share = zero
+    second = zero
     do i = 2, n      ! by their beginnings
       a = low(i)
       b = high(i)
@@ -170,6 +191,7 @@ contains
       b = max(high(i), a)
       share(2) = share(2) + half*(b**2 - a**2)
       share(1) = share(1) + (b - a) - half*(b**2 - a**2)
+      second = second + (b**3 - a**3)/3.0_wp
       end = max(end, b)
     end do
   end subroutine integrate

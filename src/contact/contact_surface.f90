@@ -74,6 +74,8 @@ contains
     case (side_segment_set)
       is_listed = in_segments(model%nodes, boundary, model%segment_set(row)%node)
     end select
+    if (model%is_axisymmetric) is_listed = is_listed .and. [(any(model%x(1, boundary(:, k)) > &
+        zero), k=1, size(boundary, 2))]      ! an edge on the axis is no surface
     node_in = .false.
     do k = 1, size(boundary, 2)
       if (is_listed(k)) node_in(boundary(:, k)) = .true.

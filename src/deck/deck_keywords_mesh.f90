@@ -153,11 +153,12 @@ contains
     call add_keyword(table, 'PART', 'a body: section and material', repeat_from=1, required=2)
     call add_part_cards(table)
     call add_inertia(table)
-    call add_keyword(table, 'SECTION_SHELL', 'plane strain or stress, thickness', &
+    call add_keyword(table, 'SECTION_SHELL', 'plane strain or stress, thickness; axisymmetry', &
         title=.true., repeat_from=1, required=2)
     call add_card(table)
     call add_field(table, 'SECID', 'I10 req >0', 'section number')
-    call add_field(table, 'ELFORM', 'I10 =2', '12 plane stress, 13 plane strain')
+    call add_field(table, 'ELFORM', 'I10 =2', '12 plane stress, 13 plane strain, 15 '// &
+        'axisymmetric about y, x is the radius (14: a note)')
     call add_field(table, 'SHRF', 'R10 note =1.0 0=d', 'of shells')
     call add_field(table, 'NIP', 'I10 =4 0=d', &
         '4 = 2 x 2 Gauss points; so are blank and 2, the default of shells (a note)')
@@ -166,7 +167,8 @@ contains
     call add_field(table, 'ICOMP', 'I10 fixed')
     call add_field(table, 'SETYP', 'I10 fixed =1 0=d', '1 = Lagrangian elements')
     call add_card(table)
-    call add_field(table, 'T1', 'R10 =1.0 0=d [L] >=0', 'thickness')
+    call add_field(table, 'T1', 'R10 =1.0 0=d [L] >=0', 'thickness; none with '// &
+        'ELFORM 15')
     call add_field(table, 'T2', 'R10 0=d [L]', 'equal to T1, or blank or 0')
     call add_field(table, 'T3', 'R10 0=d [L]', 'equal to T1, or blank or 0')
     call add_field(table, 'T4', 'R10 0=d [L]', 'equal to T1, or blank or 0')

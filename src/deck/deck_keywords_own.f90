@@ -40,14 +40,7 @@ contains
     call add_field(table, 'SHIFT', 'R10 =1.0E-3 >0 <=1', 'of the passes, / (c/L)^2 M')
     call add_field(table, 'MAXPASS', 'I10 =60 >0', 'most passes of a load step')
     call add_field(table, 'RES', 'R10 =1.0E-10 >0 <=0.01', 'residual force / sum of the loads')
-    call add_keyword(table, 'BIPACT_KINEMATICS', 'finite deformation (NSOLVR 12)', &
-        required=1, once=.true.)
-    call add_card(table)
-    call add_field(table, 'FORCE', 'W10 '//choices(force_names), &
-        'internal force of a step of THETA; blank = EMC')
-    call add_field(table, 'LAW', 'W10 |SVK|', 'of *MAT_ELASTIC; blank = SVK')
-    call add_field(table, 'QP0', 'W10 =AUTO |AUTO|0|1|', &
-        'mean dilatation: as the law, none, all')
+    call add_kinematics(table)
     call add_keyword(table, 'BIPACT_MASS', 'mass matrix', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'TYPE', 'W10 =CONSISTENT '//choices(mass_names), 'mass matrix')
@@ -121,6 +114,18 @@ contains
     call add_step_keyword(table)
     call add_storage_keywords(table)
   end subroutine add_own_keywords
+
+  subroutine add_kinematics(table)
+    type(table_t), intent(inout) :: table
+    call add_keyword(table, 'BIPACT_KINEMATICS', 'finite deformation (NSOLVR 12)', &
+        required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'FORCE', 'W10 '//choices(force_names), &
+        'internal force of a step of THETA; blank = EMC')
+    call add_field(table, 'LAW', 'W10 |SVK|', 'of *MAT_ELASTIC; blank = SVK')
+    call add_field(table, 'QP0', 'W10 =AUTO |AUTO|0|1|', &
+        'mean dilatation: as the law, none, all')
+  end subroutine add_kinematics
 
   !> Length of the steps.
   subroutine add_step_keyword(table)

@@ -2,7 +2,7 @@
 !> What an element type offers: matrices of one element from plain arrays, no mesh. A type says
 !> its shape functions, its quadrature and its faces; the rest follows here.
 module element_base
-  use base_kinds, only: wp, zero, one, half
+  use base_kinds, only: wp, zero, one, two, half
   use linalg_dense, only: cross
   implicit none
   private
@@ -18,6 +18,9 @@ module element_base
     integer, allocatable :: vtk_order(:) !< its nodes in the order of VTK, where that is another
     !> Its mass takes points +-a(i) of parametric direction i, so DISPERSION is defined for it.
     logical :: takes_dispersion = .false.
+    !> Turned about the y axis, x the radius: weights are those of the whole ring, and the
+    !> strain around the axis, u_x/x, is the fourth.
+    logical :: is_ring = .false.
     !> (nodes of a face, faces) outward: in the plane edges with the element on their left, in
     !> space seen from outside counter-clockwise; 0 = this face has fewer nodes
     integer, allocatable :: face(:, :)
@@ -32,6 +35,7 @@ module element_base
     procedure :: mass_rule => element_mass_rule
     procedure :: gradients => element_gradients
     procedure :: strains_at => element_strains_at
+    procedure :: strain_count
     procedure :: stiffness => element_stiffness
     procedure :: mass => element_mass
     procedure :: directions => element_directions
@@ -69,7 +73,7 @@ module element_base
     end subroutine rule_i
   end interface
 
-  public :: strain_matrix, strains, jacobian_at, corner_points, gauss
+  public :: strain_matrix, strains, jacobian_at, corner_points, gauss, circumference
 
   real(wp), parameter :: gauss = one/sqrt(3.0_wp)
 
@@ -81,6 +85,19 @@ contains
     integer, intent(in) :: dim
     strains = 3*(dim - 1)
   end function strains
+
+  !> Of this element: four in a ring, (exx, eyy, gxy, ezz).
+  pure integer function strain_count(this)
+    class(element_t), intent(in) :: this
+    strain_count = merge(4, strains(this%dim), this%is_ring)
+  end function strain_count
+
+  !> Of the circle that a point of a ring goes through [L]: from the shape functions n there and
+  !> the nodes x (2, nodes).
+  pure real(wp) function circumference(x, n)
+    real(wp), intent(in) :: x(:, :), n(:)
+    circumference = two*acos(-one)*dot_product(n, x(1, :))
+  end function circumference
 
   !> Quadrature of the stiffness of an element of coordinates x (dim, nodes): the rule, unless
   !> the shape asks for another.
@@ -190,7 +207,8 @@ contains
     end do
   end subroutine strain_matrix
 
-  !> B at a parametric point, and the determinant of the Jacobian there.
+  !> B at a parametric point, and the determinant of the Jacobian there, of a ring times the
+  !> circumference.
   pure subroutine element_strains_at(this, x, xi, b, det_j)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :), xi(:)
@@ -198,6 +216,9 @@ contains
     real(wp) :: n(size(x, 2)), dn(size(x, 2), size(x, 1))
     call this%gradients(x, xi, n, dn, det_j)
     call strain_matrix(dn, b)
+    if (.not. this%is_ring) return
+    b(4, 1::2) = n/dot_product(n, x(1, :))
+    det_j = det_j*circumference(x, n)
   end subroutine element_strains_at
 
   !> Stiffness (dim nodes, dim nodes) [F/L], sum over the points of B' D B (Zienkiewicz & Taylor
@@ -259,6 +280,7 @@ contains
     me = zero
     do k = 1, points
       call this%gradients(x, xi(:size(x, 1), k), n, dn, det_j)
+      if (this%is_ring) det_j = det_j*circumference(x, n)
       do i = 1, size(n)
         me(:, i) = me(:, i) + density*thickness*det_j*w(k)*n(i)*n
       end do
@@ -325,19 +347,20 @@ contains
   end subroutine element_mean_strain_matrix
 
   !> Mean strain of displacements u (dim, nodes) [L]; a translation of the element is taken off
-  !> first.
+  !> first, of a ring one along its axis.
   pure function element_mean_strain(this, x, u) result(strain)
     class(element_t), intent(in) :: this
     real(wp), intent(in) :: x(:, :)
     real(wp), intent(in) :: u(:, :)
-    real(wp) :: strain(strains(size(u, 1))), b(size(strain), size(u)), part(size(strain))
+    real(wp) :: strain(this%strain_count()), b(size(strain), size(u)), part(size(strain))
     integer :: i, k, m
     call this%mean_strain_matrix(x, b)
     m = size(u, 1)
     strain = zero
+    if (this%is_ring) strain = matmul(b(:, 1::2), u(1, :))
     do i = 2, size(u, 2)
       part = zero
-      do k = 1, m
+      do k = merge(2, 1, this%is_ring), m
         part = part + b(:, m*(i - 1) + k)*(u(k, i) - u(k, 1))
       end do
       strain = strain + part

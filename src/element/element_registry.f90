@@ -8,6 +8,7 @@ module element_registry
   use element_hex8_modes, only: new_hex8_modes
   use element_pyramid5, only: new_pyramid5
   use element_quad4, only: new_quad4
+  use element_ring, only: new_quad4_ring, new_tri3_ring
   use element_tet10, only: new_tet10
   use element_tet4, only: new_tet4
   use element_tri3, only: new_tri3
@@ -41,6 +42,8 @@ contains
     allocate (names(0))
     call offer(new_quad4())
     call offer(new_tri3())
+    call offer(new_quad4_ring())
+    call offer(new_tri3_ring())
     call offer(new_hex8())
     call offer(new_hex8_mean())
     call offer(new_hex8_modes())

@@ -14,7 +14,7 @@ module material_base
   !> too: ask has_value first.
   integer(i8), parameter :: exponent_bits = 9218868437227405312_i8
   real(wp), parameter, public :: no_value = transfer(9221120237041090560_i8, 1.0_wp)
-  public :: has_value, leave_undefined
+  public :: has_value, leave_undefined, strains_in
 
   type, abstract, public :: material_t
     integer :: id = 0
@@ -40,13 +40,14 @@ module material_base
   end type material_slot_t
 
   abstract interface
-    !> Elastic matrix D [F/L2]: (3, 3) for (exx, eyy, gxy) in plane strain or plane stress, (6,
-    !> 6) for (exx, eyy, ezz, gxy, gyz, gzx) in space.
+    !> Elastic matrix D [F/L2]: (3, 3) for (exx, eyy, gxy) in plane strain or plane stress, (4,
+    !> 4) for (exx, eyy, gxy, ezz) around an axis, (6, 6) for (exx, eyy, ezz, gxy, gyz, gzx) in
+    !> space.
     pure function moduli_i(this, plane) result(d)
-      import :: material_t, wp, in_space
+      import :: material_t, wp, strains_in
       class(material_t), intent(in) :: this
       integer, intent(in) :: plane
-      real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
+      real(wp) :: d(strains_in(plane), strains_in(plane))
     end function moduli_i
     !> Speed of pressure waves in this law, plane ones [L/T].
     pure function speed_i(this, plane) result(c)
@@ -55,7 +56,7 @@ module material_base
       integer, intent(in) :: plane
       real(wp) :: c
     end function speed_i
-    !> Stress szz [F/L2] that goes with (sxx, syy, sxy).
+    !> Stress szz [F/L2] that goes with (sxx, syy, sxy) in plane strain or plane stress.
     pure function across_i(this, plane, stress) result(szz)
       import :: material_t, wp
       class(material_t), intent(in) :: this
@@ -66,6 +67,19 @@ module material_base
   end interface
 
 contains
+
+  !> Strains of an element in the plane, around an axis or in space.
+  pure integer function strains_in(plane)
+    integer, intent(in) :: plane
+    select case (plane)
+    case (in_space)
+      strains_in = 6
+    case (axisymmetric)
+      strains_in = 4
+    case default
+      strains_in = 3
+    end select
+  end function strains_in
 
   !> The law at finite strain, in space: from Green's strain e = (E11, E22, E33, 2 E12, 2 E23, 2
   !> E31) and the history of the last accepted step, old (states): second Piola-Kirchhoff stress

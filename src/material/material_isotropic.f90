@@ -2,7 +2,7 @@
 !> What isotropic laws share: the moduli of small strains, which E and nu give.
 module material_isotropic
   use base_kinds, only: wp, zero, one, two, half
-  use material_base, only: material_t, plane_stress, in_space
+  use material_base, only: material_t, plane_stress, in_space, axisymmetric, strains_in
   implicit none
   private
 
@@ -22,7 +22,7 @@ contains
   pure function isotropic_moduli(this, plane) result(d)
     class(isotropic_t), intent(in) :: this
     integer, intent(in) :: plane
-    real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
+    real(wp) :: d(strains_in(plane), strains_in(plane))
     real(wp) :: axial, ratio
     integer :: k
     if (plane == plane_stress) then
@@ -46,13 +46,17 @@ contains
     d(1, 2) = ratio*axial
     d(2, 1) = ratio*axial
     d(3, 3) = half*this%young/(one + this%poisson)
+    if (plane /= axisymmetric) return
+    d(4, 4) = axial
+    d(4, :2) = ratio*axial
+    d(:2, 4) = ratio*axial
   end function isotropic_moduli
 
   !> c_p: (lambda + 2G)/rho in space and plane strain, E/(rho(1 - nu^2)) in plane stress.
   pure function isotropic_wave_speed(this, plane) result(c)
     class(isotropic_t), intent(in) :: this
     integer, intent(in) :: plane
-    real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
+    real(wp) :: d(strains_in(plane), strains_in(plane))
     real(wp) :: c
     d = this%moduli(plane)
     c = sqrt(d(1, 1)/this%density)

@@ -3,7 +3,7 @@
 !> strained.
 module material_rigid
   use base_kinds, only: wp, zero
-  use material_base, only: material_t, in_space
+  use material_base, only: material_t, strains_in
   implicit none
   private
 
@@ -19,7 +19,7 @@ contains
   pure function rigid_moduli(this, plane) result(d)
     class(rigid_material_t), intent(in) :: this
     integer, intent(in) :: plane
-    real(wp) :: d(merge(6, 3, plane == in_space), merge(6, 3, plane == in_space))
+    real(wp) :: d(strains_in(plane), strains_in(plane))
     d = zero
   end function rigid_moduli
 

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Area vectors of the nodes of faces: what a pressure does to nodes.
 module model_areas
-  use base_kinds, only: wp
+  use base_kinds, only: wp, one, two
   use element_face, only: face_areas, curved_areas
   use model_mesh, only: mesh_t
   implicit none
   private
-  public :: facet_areas
+  public :: facet_areas, ring_factors
 
 contains
 
@@ -33,5 +33,13 @@ contains
       end if
     end associate
   end subroutine facet_areas
+
+  !> Of the ends of an edge at the radii r, which is turned about the axis [L]: int N 2 pi r ds
+  !> over int N ds.
+  pure function ring_factors(r) result(factor)
+    real(wp), intent(in) :: r(:)
+    real(wp) :: factor(size(r))
+    factor = two*acos(-one)*(r + sum(r))/3.0_wp
+  end function ring_factors
 
 end module model_areas

@@ -20,7 +20,7 @@ module model_data
     integer :: section_id = 0
     integer :: material_id = 0
     integer :: material = 0         !< row in model%material
-    integer :: plane = 0            !< plane_stress, plane_strain or in_space
+    integer :: plane = 0            !< plane_stress, plane_strain, axisymmetric, in_space
     character(8) :: form = ''       !< in space: the element that its hexahedra are
     real(wp) :: thickness = 1.0_wp  !< [L]
     logical :: is_rigid = .false.
@@ -211,6 +211,7 @@ module model_data
   type, public :: model_t
     character(80) :: title = ''
     integer :: dim = 2
+    logical :: is_axisymmetric = .false. !< the plane is turned about the y axis, x the radius
     real(wp) :: z = 0.0_wp              !< of the plane [L]
     !> Nodes of the mesh, then centres and rotors of rigid parts.
     integer :: nodes = 0

@@ -7,8 +7,9 @@ module output_fields
   use base_kinds, only: wp, zero, half, one
   use contact_pairing, only: no_gap
   use contact_types, only: contact_t
-  use element_base, only: most_nodes, most_strains, strains
+  use element_base, only: most_nodes, most_strains
   use deck_names, only: field_names
+  use material_base, only: strains_in
   use model_data, only: model_t
   use model_state, only: state_t
   use solid_output, only: element_cauchy
@@ -104,8 +105,9 @@ contains
     type(model_t), intent(in) :: model
     type(fields_t), intent(inout) :: fields
     real(wp) :: b(most_strains, model%dim*most_nodes), stress(3)
-    integer :: k, c, e, m, at
+    integer :: k, c, e, m, n, at
     if (allocated(fields%stress_of)) return
+    n = strains_in(model%part(1)%plane)
     fields%cell_first = [1, (0, k=1, size(fields%cell))]
     do k = 1, size(fields%cell)
       fields%cell_first(k + 1) = fields%cell_first(k) + model%mesh%count_of(fields%cell(k))
@@ -118,7 +120,7 @@ contains
       fields%cell_node(fields%cell_first(k):fields%cell_first(k + 1) - 1) = &
           model%mesh%nodes_of(e)
       m = model%dim*model%mesh%count_of(e)
-      associate (part => model%part(model%mesh%part(e)), n => strains(model%dim), &
+      associate (part => model%part(model%mesh%part(e)), &
           element => model%mesh%kind(model%mesh%type(e))%item)
         associate (material => model%material(part%material)%item)
           call element%mean_strain_matrix(model%x(:, model%mesh%nodes_of(e)), b(:n, :m))
@@ -126,11 +128,13 @@ contains
           do c = 1, m
             if (model%dim == 3) then
               fields%stress_of(:, at + c) = b(:n, c)
-              cycle
+            else if (model%is_axisymmetric) then
+              fields%stress_of(:, at + c) = b([1, 2, 4, 3], c)
+            else
+              stress = b(:3, c)
+              fields%stress_of(:, at + c) = [stress(1), stress(2), &
+                  material%out_of_plane_stress(part%plane, stress), stress(3)]
             end if
-            stress = b(:3, c)
-            fields%stress_of(:, at + c) = [stress(1), stress(2), &
-                material%out_of_plane_stress(part%plane, stress), stress(3)]
           end do
         end associate
       end associate

@@ -3,7 +3,7 @@
 !> once, so that a row of a table asks for no memory.
 module output_history
   use base_kinds, only: wp, zero
-  use element_base, only: strains
+  use material_base, only: strains_in
   use model_data, only: model_t
   implicit none
   private
@@ -12,6 +12,7 @@ module output_history
     integer, allocatable :: first(:), node(:)      !< nodes of each element, as rows
     real(wp), allocatable :: b(:, :)               !< (strains, dim nodes) mean B [1/L]
     real(wp), allocatable :: moduli(:, :, :)       !< (strains, strains, elements) [F/L2]
+    logical :: is_ring = .false.                   !< all are turned about the y axis
   end type history_t
 
   public :: make_history, history_stress
@@ -29,7 +30,8 @@ contains
       do k = 1, size(list)
         history%first(k + 1) = history%first(k) + mesh%count_of(list(k))
       end do
-      m = strains(model%dim)
+      history%is_ring = model%is_axisymmetric
+      m = strains_in(model%part(1)%plane)
       allocate (history%node(history%first(size(list) + 1) - 1))
       allocate (history%b(m, model%dim*size(history%node)), history%moduli(m, m, size(list)))
       do k = 1, size(list)
@@ -46,7 +48,7 @@ contains
   end subroutine make_history
 
   !> stress (strains) [F/L2] of the k-th element at displacements u (dim, nodes) [L]; a
-  !> translation of the element is taken off first.
+  !> translation of the element is taken off first, of a ring one along its axis.
   pure subroutine history_stress(history, k, u, stress)
     type(history_t), intent(in) :: history
     integer, intent(in) :: k
@@ -57,9 +59,10 @@ contains
     m = size(u, 1)
     n = size(stress)
     strain = zero
+    if (history%is_ring) call add_radial(history, k, u, strain(:n))
     do i = history%first(k) + 1, history%first(k + 1) - 1
       of_node = zero
-      do c = 1, m
+      do c = merge(2, 1, history%is_ring), m
         of_node(:n) = of_node(:n) + history%b(:, m*(i - 1) + c) &
             *(u(c, history%node(i)) - u(c, history%node(history%first(k))))
       end do
@@ -70,5 +73,17 @@ contains
       stress = stress + history%moduli(:, c, k)*strain(c)
     end do
   end subroutine history_stress
+
+  !> Strain that the radial displacements of a ring make.
+  pure subroutine add_radial(history, k, u, strain)
+    type(history_t), intent(in) :: history
+    integer, intent(in) :: k
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: strain(:)
+    integer :: i
+    do i = history%first(k), history%first(k + 1) - 1
+      strain = strain + history%b(:, 2*i - 1)*u(1, history%node(i))
+    end do
+  end subroutine add_radial
 
 end module output_history

@@ -147,7 +147,9 @@ contains
         call add_number(file, writer, state%time)
         call add_count(file, model%mesh%id(e))
         call add_count(file, part%id)
-        if (model%dim == 2 .and. .not. allocated(system%solid)) then
+        if (model%is_axisymmetric .and. .not. allocated(system%solid)) then
+          call add_numbers(file, writer, [stress([1, 2, 4, 3]), zero, zero])
+        else if (model%dim == 2 .and. .not. allocated(system%solid)) then
           call add_numbers(file, writer, [stress(1), stress(2), model%material( &
               part%material)%item%out_of_plane_stress(part%plane, stress(:3)), stress(3), &
               zero, zero])

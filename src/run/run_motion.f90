@@ -123,7 +123,9 @@ contains
     real(wp), intent(in) :: t1
     integer :: k, m
     call find_given(run, stage, t1)
-    call subtract_product(run, stage, run%motion_part, run%given, run%b)
+    ! The matrix of an explicit step at finite deformation is diagonal: no columns to subtract.
+    if (.not. allocated(run%newton)) call subtract_product(run, stage, run%motion_part, &
+        run%given, run%b)
     call clear_fixed(run%system, run%b)
     do k = 1, size(run%model%motion)
       if (.not. run%active_motion(k)) cycle

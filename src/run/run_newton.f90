@@ -6,6 +6,7 @@
 !> nothing of contact is linearised; the factor of A is that of the start of the step as long
 !> as it serves, for an old A costs passes and no accuracy.
 module run_newton
+  use assembly_damping, only: subtract_damping_force
   use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, &
       subtract_tangent_product, smallest_stretch, exchange_solids, plastic_work
   use assembly_system, only: clear_fixed, set_fixed, multiply_mass
@@ -14,6 +15,7 @@ module run_newton
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use base_timers, only: phase_product, phase_solve
+  use run_damping, only: subtract_damping
   use run_data, only: run_t
   use run_operator, only: factor_matrix, kept_nodes
   use run_motion, only: find_given
@@ -144,6 +146,10 @@ contains
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
     call subtract_solid_force(run%system%solid, run%system%force_rule, one, run%state%u, &
         run%x, run%b, run%newton%work)
+    if (run%plan%damping) then
+      call subtract_damping(run, stage)
+      call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
+    end if
     if (allocated(run%shift)) call add_shift(run%shift, run%x_pass - run%x, run%b)
     run%newton%residual = run%b
     if (run%system%any_fixed) call clear_fixed(run%system, run%b)

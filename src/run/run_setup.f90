@@ -130,7 +130,8 @@ contains
     if (run%plan%reactions) call start_reactions(run)
     call make_ledger(run%model, run%system, run%state, run%ledger)
     run%ledger%staggered = run%scheme%staggered
-    if (run%model%dim == 2 .and. .not. allocated(run%newton)) then
+    if (run%model%dim == 2 .and. .not. run%model%is_axisymmetric .and. &
+        .not. allocated(run%newton)) then
       allocate (run%bending)
       call make_bending(run%model, run%bending)
     end if

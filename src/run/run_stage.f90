@@ -3,7 +3,8 @@
 !> whole motion, and its correction where the effective matrix is stiff.
 module run_stage
   use assembly_damping, only: subtract_damping_force
-  use assembly_forces, only: add_loads, subtract_internal_force, subtract_layer_force
+  use assembly_forces, only: add_loads, subtract_internal_force, subtract_layer_force, &
+      strain_energies
   use assembly_system, only: clear_fixed, multiply_mass
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
@@ -76,6 +77,10 @@ contains
     associate (s => run%scheme%stage(stage))
       if (.not. s%force_weight > zero) return
       if (allocated(run%newton)) then
+        if (.not. allocated(run%ledger%part_before)) allocate (run%ledger%part_before( &
+            size(run%model%part)))
+        call strain_energies(run%system, run%model%mesh%part, run%state%u, &
+            run%ledger%part_before)
         run%newton%residual = zero
         call subtract_internal_force(run%system, -one, run%state%u, run%newton%residual)
         run%b = run%b - s%force_weight*run%newton%residual

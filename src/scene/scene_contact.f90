@@ -57,7 +57,7 @@ contains
     if (deck%problems%count == 0) call share_parts(deck, model)
     do k = 1, size(record)
       if (model%contact(k)%pairing == 'MORTAR') &
-          call check_mortar(deck, model%dim, pair(k), model%contact(k))
+          call check_mortar(deck, model, pair(k), model%contact(k))
       if (pair(k) > 0) call read_overlap(deck, model, pair(k), model%contact(k))
     end do
     call warn_thickness(deck, model)
@@ -351,14 +351,18 @@ contains
   end function kind_in_space
 
   !> Multipliers live on the edges of one of two surfaces.
-  subroutine check_mortar(deck, dim, pair, card)
+  subroutine check_mortar(deck, model, pair, card)
     type(deck_t), intent(inout) :: deck
-    integer, intent(in) :: dim, pair
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: pair
     type(contact_card_t), intent(in) :: card
     character(*), parameter :: instead = 'take PAIRING NODE'
-    if (dim == 3) then
+    if (model%dim == 3) then
       call deck%complain(pair, 'PAIRING', 'MORTAR is not available in space in this version', &
           instead)
+    else if (model%is_axisymmetric) then
+      call deck%complain(pair, 'PAIRING', 'MORTAR is not available around an axis in this '// &
+          'version', instead)
     else if (card%contactor == 3) then
       call deck%complain(pair, 'SIDE', 'MORTAR has multipliers on one side: expected A, B '// &
           'or AUTO', instead//' where both sides are to have exact nodes')

@@ -131,7 +131,8 @@ contains
     is_refused = .false.
     do e = 1, model%mesh%n
       p = model%mesh%part(e)
-      if (any([model%mesh%is_of_type(e, 'TRI3'), model%mesh%is_of_type(e, 'TET4')])) &
+      if (any([model%mesh%is_of_type(e, 'TRI3'), model%mesh%is_of_type(e, 'TRI3AX'), &
+          model%mesh%is_of_type(e, 'TET4')])) &
           locks(p) = model%material(model%part(p)%material)%item%mean_dilatation
       if (model%mesh%is_of_type(e, 'HEX8MODE')) is_refused(p) = .true.
     end do

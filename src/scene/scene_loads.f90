@@ -7,7 +7,7 @@ module scene_loads
   use deck_data, only: deck_t
   use deck_problems, only: add_note, add_warning
   use element_base, only: most_face_nodes
-  use model_areas, only: facet_areas
+  use model_areas, only: facet_areas, ring_factors
   use model_data, only: model_t, curve_t, load_t
   use model_faces, only: find_segments
   use scene_ids, only: maps_t, make_id_map, records_of, find_or_complain
@@ -239,7 +239,8 @@ contains
   end function has_all
 
   !> A pressure on facets of elements as forces on the nodes of their faces: int N n dA of the
-  !> reference geometry, against the outward normal; in the plane times the thickness.
+  !> reference geometry, against the outward normal; in the plane times the thickness,
+  !> around an axis times the circle.
   subroutine press(model, owner, facet, load)
     type(model_t), intent(in) :: model
     integer, intent(in) :: owner(:), facet(:)
@@ -252,6 +253,8 @@ contains
       call facet_areas(model%mesh, model%x, owner(s), facet(s), node, m, force(:, n + 1:))
       force(:, n + 1:n + m) = &
           -model%part(model%mesh%part(owner(s)))%thickness*force(:, n + 1:n + m)
+      if (model%is_axisymmetric) force(:, n + 1:n + m) = force(:, n + 1:n + m) &
+          *spread(ring_factors(model%x(1, node(:m))), 1, 2)
       call append(node(:m), load%node, n)
     end do
     load%node = load%node(:n)
@@ -270,6 +273,8 @@ contains
       call records_of(deck, 'LOAD_BODY_'//axis(d), 1, other)
       record = [record, other]
       direction = [direction, spread(d, 1, size(other))]
+      if (d == 1 .and. model%is_axisymmetric .and. size(other) > 0) call deck%complain( &
+          other(1), '', 'expected *LOAD_BODY_Y: around an axis a body load acts along it')
       if (d <= model%dim .or. size(other) == 0) cycle
       call deck%complain(other(1), '', 'expected *LOAD_BODY_X or *LOAD_BODY_Y: the model '// &
           'is plane')

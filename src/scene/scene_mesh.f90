@@ -85,7 +85,10 @@ contains
     type(model_t), intent(inout) :: model
     type(maps_t), intent(in) :: maps
     integer, allocatable :: record(:)
+    character(8) :: triangle, quadrilateral
     integer :: k, n, part, corner(4)
+    triangle = merge('TRI3AX  ', 'TRI3    ', model%is_axisymmetric)
+    quadrilateral = merge('QUAD4AX ', 'QUAD4   ', model%is_axisymmetric)
     call records_of(deck, 'ELEMENT_SHELL', 1, record)
     n = size(record)
     call model%mesh%start(n, 4*n)
@@ -94,9 +97,9 @@ contains
         part = part_of_element(deck, maps, r)
         call read_corners(deck, r, maps, corner)
         if (corner(3) == corner(4)) then
-          call model%mesh%add('TRI3', nint(deck%number_at(r, 1)), part, r, corner(:3))
+          call model%mesh%add(triangle, nint(deck%number_at(r, 1)), part, r, corner(:3))
         else
-          call model%mesh%add('QUAD4', nint(deck%number_at(r, 1)), part, r, corner)
+          call model%mesh%add(quadrilateral, nint(deck%number_at(r, 1)), part, r, corner)
         end if
       end associate
     end do

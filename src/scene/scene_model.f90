@@ -8,6 +8,7 @@ module scene_model
   use deck_problems, only: full
   use linalg_solver, only: solver_options_t
   use model_data, only: model_t
+  use scene_axis, only: check_axis, hold_axis
   use scene_contact, only: read_contacts
   use scene_controls, only: read_controls, read_solver_options, note_keywords
   use scene_damping, only: read_damping
@@ -53,12 +54,14 @@ contains
     end if
     if (deck%problems%count == 0) then
       call check_mesh(deck, model)
+      call check_axis(deck, model)
       call check_elements(deck, model)
       call check_mass(deck, model)
     end if
     if (deck%problems%count == 0) then
       call read_sets(deck, model, maps)
       call read_supports(deck, model, maps)
+      call hold_axis(deck, model)
       call read_loads(deck, model, maps)
       call read_damping(deck, model, maps)
       if (deck%problems%count == 0 .and. model%controls%is_explicit) call find_step(deck, model)

@@ -177,6 +177,8 @@ contains
     spin%centre = [(deck%real(second, axis(d)//'C'), d=1, 3)]
     spin%axis = [(deck%real(second, 'N'//axis(d)), d=1, 3)]
     if (.not. any(abs(spin%axis) > zero)) spin%axis(3) = one
+    if (model%is_axisymmetric .and. abs(spin%omega) > zero) call deck%complain(record, &
+        'OMEGA', 'expected 0: an axisymmetric model does not rotate')
     if (model%dim == 2 .and. abs(abs(spin%axis(3)) - one) > zero) &
         call deck%complain(second, 'NZ', 'expected 1 or -1: the axis of rotation is z')
     spin%axis = spin%axis/norm2(spin%axis)

@@ -5,7 +5,7 @@ module scene_parts
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_note
-  use material_base, only: plane_stress, plane_strain, in_space
+  use material_base, only: plane_stress, plane_strain, axisymmetric, in_space
   use model_data, only: model_t, section_t
   use scene_ids, only: maps_t, make_id_map, records_of
   use scene_solids, only: form_of
@@ -63,7 +63,27 @@ contains
       end associate
     end do
     call make_id_map(deck, 'part', 'PID', model%part%id, record, maps%part)
+    call find_axis(deck, model)
   end subroutine read_parts
+
+  !> Is the model turned about the y axis? Then all of its parts are.
+  subroutine find_axis(deck, model)
+    type(deck_t), intent(inout) :: deck
+    type(model_t), intent(inout) :: model
+    integer :: p
+    model%is_axisymmetric = any(model%part%plane == axisymmetric)
+    if (.not. model%is_axisymmetric) return
+    do p = 1, size(model%part)
+      associate (part => model%part(p))
+        if (part%is_rigid) call deck%complain(part%record, 'MID', 'part '// &
+            to_text(part%id)//' is rigid: rigid parts are not available around an axis', &
+            'take a stiff *MAT_ELASTIC, or a rigid wall')
+        if (part%plane /= axisymmetric .and. part%plane /= 0) call deck%complain( &
+            part%record, 'SECID', 'part '//to_text(part%id)//' is plane, others are '// &
+            'axisymmetric: expected one ELFORM for all', 'x is the radius of all, or of none')
+      end associate
+    end do
+  end subroutine find_axis
 
   subroutine read_sections(deck, section, maps)
     type(deck_t), intent(inout) :: deck
@@ -85,12 +105,7 @@ contains
           if (deck%in_space) call form_of(deck, r, deck%integer(r, 'ELFORM'), section(k)%form)
           cycle
         end if
-        section(k)%plane = deck%integer(r, 'ELFORM')
-        if (section(k)%plane /= plane_stress .and. section(k)%plane /= plane_strain) then
-          call deck%complain(r, 'ELFORM', 'expected 12 (plane stress) or 13 (plane strain)', &
-              'other element forms are not available in this version')
-          section(k)%plane = plane_strain
-        end if
+        section(k)%plane = plane_of(deck, r)
         select case (deck%integer(r, 'NIP'))
         case (4)
         case (2)
@@ -107,6 +122,25 @@ contains
     call make_id_map(deck, 'section', 'SECID', ids, record, maps%section)
   end subroutine read_sections
 
+  !> ELFORM; 14 weighs by areas in place of volumes, which does not pass the patch test.
+  integer function plane_of(deck, record)
+    type(deck_t), intent(inout) :: deck
+    integer, intent(in) :: record
+    integer, parameter :: area_weighted = 14
+    plane_of = deck%integer(record, 'ELFORM')
+    select case (plane_of)
+    case (plane_stress, plane_strain, axisymmetric)
+    case (area_weighted)
+      plane_of = axisymmetric
+      call add_note(deck%problems, '*SECTION_SHELL ELFORM 14 is read as 15: axisymmetric, '// &
+          'weighted by volume')
+    case default
+      call deck%complain(record, 'ELFORM', 'expected 12 (plane stress), 13 (plane strain) '// &
+          'or 15 (axisymmetric)', 'other element forms are not available in this version')
+      plane_of = plane_strain
+    end select
+  end function plane_of
+
   subroutine read_thickness(deck, record, section)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
@@ -114,6 +148,12 @@ contains
     character(2), parameter :: other(3) = ['T2', 'T3', 'T4']
     integer :: k
     if (record == 0) return
+    if (section%plane == axisymmetric) then
+      if (abs(deck%real(record, 'T1') - section%thickness) > zero) call add_note( &
+          deck%problems, 'T1 of an axisymmetric *SECTION_SHELL has no effect: forces, '// &
+          'masses and energies are of the whole ring')
+      return
+    end if
     section%thickness = deck%real(record, 'T1')
     do k = 1, 3
       if (.not. deck%is_given(record, other(k))) cycle

@@ -163,6 +163,8 @@ contains
     wall%shape = 'FLAT'
     wall%mass = deck%real(record, 'MASS')
     wall%speed = deck%real(record, 'V0')
+    if (model%is_axisymmetric .and. abs(wall%normal(1)) > zero) call deck%complain(record, &
+        'MASS', 'expected a normal along y: around an axis a free wall moves along it')
     if (model%controls%is_static .or. model%controls%static_until > zero) call deck%complain( &
         record, 'MASS', 'a wall that moves freely has no place in statics', &
         'use *RIGIDWALL_PLANAR, or *RIGIDWALL_GEOMETRIC_FLAT_MOTION')

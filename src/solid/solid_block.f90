@@ -9,7 +9,7 @@
 !>               1992; Gonzalez 2000).
 module solid_block
   use base_kinds, only: wp, zero, one, half
-  use element_base, only: element_t, most_points, most_nodes, strains
+  use element_base, only: element_t, most_points, most_nodes, circumference
   use linalg_dense, only: cross
   use material_base, only: material_t
   use material_plane, only: respond_as, places_of
@@ -32,13 +32,15 @@ module solid_block
   type, public :: solid_t
     integer :: first = 0, n = 0              !< its elements: the first in the mesh, how many
     integer :: nodes = 0, dim = 0, points = 0, strains = 0
+    integer :: columns = 0                   !< of H: dim, or 3 around an axis
     integer :: plane = 0
     logical :: is_mean = .false.             !< mean dilatation
     integer, allocatable :: place(:)         !< of its strains among the six in space
     class(material_t), allocatable :: material
     integer, allocatable :: node(:, :)       !< (nodes, n)
     real(wp), allocatable :: weight(:, :)    !< (points, n) of the rule, reference volume [L3]
-    real(wp), allocatable :: slope(:, :, :, :)   !< (nodes, dim, points, n) dN/dX [1/L]
+    real(wp), allocatable :: slope(:, :, :, :)   !< (nodes, dim, points, n) dN/dX [1/L],
+                                             !< around an axis (nodes, 3, points, n)
     real(wp), allocatable :: energy(:)       !< (n) of elements at the start of the step [F L]
     real(wp), allocatable :: history(:, :, :)    !< (states, points, n) at the start of the step
   end type solid_t
@@ -64,20 +66,24 @@ contains
     solid%n = size(node, 2)
     solid%nodes = size(node, 1)
     solid%plane = plane
-    solid%strains = strains(solid%dim)
+    solid%strains = element%strain_count()
+    solid%columns = merge(3, solid%dim, element%is_ring)
     solid%node = node
     solid%is_mean = is_mean
     solid%place = places_of(plane)
     allocate (solid%material, source=material)
     call element%stiffness_rule(x(:, node(:, 1)), solid%points, xi, w)
     allocate (solid%weight(solid%points, solid%n), solid%energy(solid%n), &
-        solid%slope(solid%nodes, solid%dim, solid%points, solid%n))
+        solid%slope(solid%nodes, solid%columns, solid%points, solid%n))
     do k = 1, solid%n
       call element%stiffness_rule(x(:, node(:, k)), solid%points, xi, w)
       do g = 1, solid%points
         call element%gradients(x(:, node(:, k)), xi(:solid%dim, g), shape, &
-            solid%slope(:, :, g, k), det)
+            solid%slope(:, :solid%dim, g, k), det)
         solid%weight(g, k) = thickness*det*w(g)
+        if (.not. element%is_ring) cycle
+        solid%weight(g, k) = solid%weight(g, k)*circumference(x(:, node(:, k)), shape)
+        solid%slope(:, 3, g, k) = shape/dot_product(shape, x(1, node(:, k)))
       end do
     end do
     allocate (solid%history(material%states, solid%points, solid%n), source=zero)
@@ -99,7 +105,7 @@ contains
   pure subroutine commit_step(solid, u1)
     type(solid_t), intent(inout) :: solid
     real(wp), intent(in) :: u1(:, :)
-    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim, solid%points)
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%columns, solid%points)
     real(wp) :: s(solid%strains, solid%points), energy
     real(wp) :: d(solid%strains, solid%strains, solid%points)
     real(wp) :: new(solid%material%states, solid%points)
@@ -134,7 +140,7 @@ contains
     end select
   end subroutine element_force
 
-  !> Displacements of an element relative to its first node.
+  !> Displacements of an element relative to its first node, around an axis only the axial ones.
   pure subroutine relative(solid, k, u, a)
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
@@ -143,6 +149,7 @@ contains
     integer :: i
     do i = 1, solid%nodes
       a(:, i) = u(:, solid%node(i, k)) - u(:, solid%node(1, k))
+      if (solid%columns > solid%dim) a(1, i) = u(1, solid%node(i, k))
     end do
   end subroutine relative
 
@@ -152,7 +159,7 @@ contains
     integer, intent(in) :: k
     real(wp), intent(in) :: factor, u(:, :)
     real(wp), intent(inout) :: force(:, :)
-    real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
+    real(wp) :: h(solid%dim, solid%columns, solid%points), s(solid%strains, solid%points)
     real(wp) :: d(solid%strains, solid%strains, solid%points), energy
     integer :: g
     call stresses_at(solid, k, u, .false., h, s, d, energy)
@@ -212,7 +219,7 @@ contains
     integer, intent(in) :: k
     real(wp), intent(in) :: a(:, :), x(:, :)
     real(wp), intent(inout) :: force(:, :)
-    real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
+    real(wp) :: h(solid%dim, solid%columns, solid%points), s(solid%strains, solid%points)
     real(wp) :: d(solid%strains, solid%strains, solid%points)
     integer :: g
     call conserving_stresses(solid, k, a, x, .false., h, s, d)
@@ -243,9 +250,9 @@ contains
       call displacement_gradient(a, solid%slope(:, :, g, k), h(:, :, g))
       call green_strain(h(:, :, g), e0(:, g))
       call displacement_gradient(end(:solid%dim, :solid%nodes), solid%slope(:, :, g, k), &
-          h1(:solid%dim, :solid%dim))
-      call green_strain(h1(:solid%dim, :solid%dim), e1(:, g))
-      h(:, :, g) = half*(h(:, :, g) + h1(:solid%dim, :solid%dim))
+          h1(:solid%dim, :solid%columns))
+      call green_strain(h1(:solid%dim, :solid%columns), e1(:, g))
+      h(:, :, g) = half*(h(:, :, g) + h1(:solid%dim, :solid%columns))
     end do
     if (solid%material%states > 0) then
       call respond(solid, k, e1, with_moduli, s, d, energy, coupling)
@@ -256,14 +263,14 @@ contains
     length = zero
     work = zero
     do g = 1, solid%points
-      length = length + solid%weight(g, k)*square_of(e1(:, g) - e0(:, g), solid%dim)
+      length = length + solid%weight(g, k)*square_of(e1(:, g) - e0(:, g), solid)
       work = work + solid%weight(g, k)*dot_product(s(:, g), e1(:, g) - e0(:, g))
     end do
     if (.not. length > least*sum(solid%weight(:, k))) return
     call respond(solid, k, e1, .false., s_end, no_moduli, energy)
     change = (energy - solid%energy(k) - work)/length
     do g = 1, solid%points
-      s(:, g) = s(:, g) + change*tensor_of(e1(:, g) - e0(:, g), solid%dim)
+      s(:, g) = s(:, g) + change*tensor_of(e1(:, g) - e0(:, g), solid)
     end do
   end subroutine conserving_stresses
 
@@ -274,19 +281,24 @@ contains
   end function has_quadratic_energy
 
   !> E:E of a strain, whose shears are 2 E12.
-  pure real(wp) function square_of(e, dim)
+  pure real(wp) function square_of(e, solid)
     real(wp), intent(in) :: e(:)
-    integer, intent(in) :: dim
-    square_of = dot_product(e(:dim), e(:dim)) + half*dot_product(e(dim + 1:), e(dim + 1:))
+    type(solid_t), intent(in) :: solid
+    integer :: shear
+    shear = merge(6, 3, solid%dim == 3)     ! the last one
+    associate (n => solid%dim)
+      square_of = dot_product(e(:n), e(:n)) + half*dot_product(e(n + 1:shear), e(n + 1:shear))
+    end associate
+    if (size(e) > shear) square_of = square_of + e(4)**2
   end function square_of
 
   !> The components E12 in place of 2 E12.
-  pure function tensor_of(e, dim) result(t)
+  pure function tensor_of(e, solid) result(t)
     real(wp), intent(in) :: e(:)
-    integer, intent(in) :: dim
+    type(solid_t), intent(in) :: solid
     real(wp) :: t(size(e))
     t = e
-    t(dim + 1:) = half*e(dim + 1:)
+    where (solid%place > 3) t = half*e
   end function tensor_of
 
   !> Symmetric tangent (dim nodes, dim nodes) [F/L] of the force of a step in x. Of the
@@ -299,7 +311,7 @@ contains
     real(wp), intent(in) :: u0(:, :), x(:, :)
     real(wp), intent(out) :: ke(:, :)
     real(wp), dimension(solid%dim, solid%nodes) :: a, change
-    real(wp) :: h(solid%dim, solid%dim, solid%points), s(solid%strains, solid%points)
+    real(wp) :: h(solid%dim, solid%columns, solid%points), s(solid%strains, solid%points)
     real(wp) :: d(solid%strains, solid%strains, solid%points), energy
     real(wp) :: b(solid%strains, solid%dim*solid%nodes), factor
     real(wp), dimension(solid%dim*solid%nodes) :: to_g, to_b
@@ -358,7 +370,7 @@ contains
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
     real(wp), intent(in) :: u(:, :)
-    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim, solid%points)
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%columns, solid%points)
     real(wp) :: s(solid%strains, solid%points)
     real(wp) :: d(solid%strains, solid%strains, solid%points)
     call relative(solid, k, u, a)
@@ -371,7 +383,7 @@ contains
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
     real(wp), intent(in) :: u(:, :)
-    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%dim), det
+    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%columns), det
     integer :: g, i
     call relative(solid, k, u, a)
     least = huge(one)
@@ -382,6 +394,7 @@ contains
       end do
       if (solid%dim == 2) then
         det = h(1, 1)*h(2, 2) - h(1, 2)*h(2, 1)
+        if (solid%columns == 3) det = min(det, det*(one + h(1, 3)))
       else
         det = dot_product(h(:, 1), cross(h(:, 2), h(:, 3)))
       end if

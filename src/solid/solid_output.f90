@@ -43,7 +43,7 @@ contains
     integer, intent(in) :: k
     real(wp), intent(in) :: a(:, :)
     real(wp), intent(out) :: f(:, :, :), e(:, :), s(:, :)
-    real(wp) :: h(solid%dim, solid%dim), own(solid%strains, solid%points), energy
+    real(wp) :: h(solid%dim, solid%columns), own(solid%strains, solid%points), energy
     real(wp) :: own_s(solid%strains, solid%points)
     real(wp) :: d(solid%strains, solid%strains, solid%points)
     real(wp) :: new(solid%material%states, solid%points)
@@ -53,7 +53,7 @@ contains
     do g = 1, solid%points
       call displacement_gradient(a, solid%slope(:, :, g, k), h)
       call green_strain(h, own(:, g))
-      f(:solid%dim, :solid%dim, g) = h
+      f(:solid%dim, :solid%dim, g) = h(:, :solid%dim)
       do i = 1, 3
         f(i, i, g) = f(i, i, g) + one
       end do

@@ -20,6 +20,9 @@ module time_ledger
     type(contact_work_t) :: contact  !< lost so far: friction, normal; gained: unsolved
     real(wp) :: algorithmic = zero   !< taken out by the scheme so far
     real(wp) :: damping = zero
+    !> Strain energies of the parts at the start of the step just done, only of explicit steps at
+    !> finite deformation, whose energy is the mean of both ends [F L].
+    real(wp), allocatable :: part_before(:)
     real(wp) :: plastic = zero          !< plastic work, stored hardening included
     real(wp) :: residual = zero      !< of the balance / largest term so far
     real(wp) :: ratio = one          !< total / (initial + external + motion)
@@ -148,6 +151,10 @@ contains
     ledger%kinetic = sum(ledger%part_kinetic)
     ledger%internal = sum(ledger%part_internal)
     if (model%bodies > 0) call add_walls(model, state, ledger)
+    if (model%is_axisymmetric) then    ! what is radial cancels around the axis
+      ledger%momentum(1) = zero
+      ledger%angular = zero
+    end if
     call balance(ledger)
     call watch_growth(ledger)
   end subroutine evaluate_ledger
@@ -202,8 +209,8 @@ contains
     end if
     if (allocated(system%solid)) then
       call strain_energies(system, model%mesh%part, state%u, ledger%part_internal)
-      call strain_energies(system, model%mesh%part, state%u - state%du, rest)
-      ledger%part_internal = half*(ledger%part_internal + rest)
+      if (allocated(ledger%part_before)) ledger%part_internal = half*(ledger%part_internal &
+          + ledger%part_before)
       return
     end if
     middle = state%u - half*state%du

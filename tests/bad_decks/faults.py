@@ -29,7 +29,22 @@ def law(name, fields, more="", title=""):
 
 
 MOTION = "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,1,0,1\n"
+SECTION = "         1        13                   4"
+RING = (SECTION, SECTION.replace("13", "15"))
 BASE_FAULTS = [
+    # around an axis
+    ("a node left of the axis", *RING, "       4             0.0", "       4            -0.5"),
+    ("a plane part beside a ring", *RING, "*SET_NODE_LIST", "*PART\nplane\n2,2,1\n"
+     "*SECTION_SHELL\n2,13\n1.0\n*NODE\n5,3.0,0.0\n6,4.0,0.0\n7,4.0,1.0\n*ELEMENT_SHELL\n"
+     "2,2,5,6,7,7\n*SET_NODE_LIST"),
+    ("a rigid ring", *RING, *RIGID),
+    ("waves of bars around an axis", *RING, "*NODE", "*BIPACT_MASS\nDISPERSION,0\n*NODE"),
+    ("a ring that rotates", *RING, "*END", "*INITIAL_VELOCITY_GENERATION\n1,2,1.0\n0.0\n*END"),
+    ("a body load across the axis", *RING, "*END", CURVE + "*LOAD_BODY_X\n1,1.0\n*END"),
+    ("a free wall that leaves the axis", *RING, "*END",
+     "*RIGIDWALL_PLANAR_MOVING\n0,\n3.0,0.0,0.0,2.0,0.5\n1.0,1.0\n*END"),
+    ("a driven node on the axis", *RING, "*END",
+     CURVE + "*BOUNDARY_PRESCRIBED_MOTION_NODE\n1,1,2,1\n*END"),
     # the frame
     ("unknown keyword", "*DATABASE_GLSTAT", "*DATABASE_GLSTATS"),
     ("unknown option", "*CONTROL_TERMINATION", "*CONTROL_TERMINATION_FOO"),
@@ -645,6 +660,7 @@ BLOCK_FAULTS = [
     ),
     ("adjusted by both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,,,ADJUST\n*END"),
     ("overlap of no such kind", "*END", "*BIPACT_PAIR\n1,,,,,,,PUSH\n*END"),
+    ("mortar around an axis", "*END", "*BIPACT_PAIR\n1,,,,,MORTAR\n*END", *RING),
     ("mortar on both sides", "*END", "*BIPACT_PAIR\n1,BOTH,,,,MORTAR\n*END"),
     ("mortar of a node set", "*END", "*BIPACT_PAIR\n1,,,NODESET,,MORTAR\n*SET_NODE_LIST\n12,\n1,2\n*END"),
     ("mortar of one surface", "*END", "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE_ID\n7,\n,\n*BIPACT_PAIR\n7,,,,,MORTAR\n*END"),

@@ -10,7 +10,8 @@ program test_element
   use element_tet10, only: tet10_places
   use element_registry, only: make_element, element_names
   use linalg_dense, only: largest_by_lapack
-  use material_base, only: material_t, plane_stress, plane_strain, in_space
+  use material_base, only: material_t, plane_stress, plane_strain, &
+      axisymmetric, in_space
   use material_registry, only: make_material
   implicit none
   real(wp), parameter :: thickness = 0.7_wp, density = 1.3_wp
@@ -25,9 +26,14 @@ program test_element
   call element_names(names)
   do k = 1, size(names)
     call make_element(names(k), element)
-    if (element%dim == 2) call test_stiffness(plane_stress)
-    if (element%dim == 2) call test_stiffness(plane_strain)
-    if (element%dim == 3) call test_stiffness(in_space)
+    if (element%is_ring) then
+      call test_ring()
+    else if (element%dim == 2) then
+      call test_stiffness(plane_stress)
+      call test_stiffness(plane_strain)
+    else
+      call test_stiffness(in_space)
+    end if
     call test_mass()
     call test_shape()
     call test_faces()
@@ -49,6 +55,7 @@ contains
     integer :: i
     if (element%dim == 2) then
       x = quad(:, 1:element%nodes)
+      if (element%is_ring) x(1, :) = x(1, :) + 0.4_wp    ! radii
       return
     end if
     call seed_random(11)
@@ -138,6 +145,28 @@ contains
         1.0e-13_wp, element%name//' mean strain', maxval(abs(strain)))
   end subroutine test_stiffness
 
+  !> A motion along the axis costs no force; the strain that a displacement (a x, b y) makes,
+  !> with a around the axis, costs the exact energy.
+  subroutine test_ring()
+    real(wp), parameter :: a = 0.3_wp, b = -0.7_wp
+    real(wp), parameter :: strain(4) = [a, b, zero, a]
+    real(wp) :: x(2, element%nodes), u(2*element%nodes), ke(size(u), size(u)), energy
+    real(wp) :: d(4, 4)
+    x = corners()
+    d = material%moduli(axisymmetric)
+    call element%stiffness(x, d, thickness, ke)
+    call check_true(.not. any(abs(ke - transpose(ke)) > zero), element%name//' symmetry')
+    u = reshape(spread([zero, one], 2, element%nodes), [size(u)])
+    call check_close(maxval(abs(matmul(ke, u))), zero, 1.0e-12_wp, element%name// &
+        ' axial motion', maxval(abs(ke)))
+    u = reshape(x*spread([a, b], 2, element%nodes), [size(u)])
+    energy = thickness*measure(x)*dot_product(strain, matmul(d, strain))
+    call check_close(dot_product(u, matmul(ke, u)), energy, 1.0e-13_wp, element%name// &
+        ' energy of constant strain', energy)
+    call check_close(maxval(abs(element%mean_strain(x, reshape(u, shape(x))) - strain)), zero, &
+        1.0e-13_wp, element%name//' mean strain', maxval(abs(strain)))
+  end subroutine test_ring
+
   !> Translations and small rotations about the axes, in the plane about z.
   function pack_motion(x, k) result(u)
     real(wp), intent(in) :: x(:, :)
@@ -190,8 +219,7 @@ contains
   end function cross
 
   !> Whatever the integration points, the total mass is exact where the Jacobian is linear in
-  !> each direction: in the plane. In space those of the Gauss points, against the volume of
-  !> tetrahedra around the centre of each face.
+  !> each direction: in the plane. In space and of rings that of the Gauss points.
   subroutine test_mass()
     real(wp) :: x(element%dim, element%nodes), me(element%nodes, element%nodes), total
     real(wp) :: a(element%dim)
@@ -199,7 +227,7 @@ contains
     integer :: k
     x = corners()
     total = density*thickness*measure(x)
-    do k = 1, merge(3, 1, element%dim == 2)
+    do k = 1, merge(3, 1, element%dim == 2 .and. .not. element%is_ring)
       a = points(k)
       call element%mass(x, density, thickness, a, me)
       call check_close(sum(me), total, 1.0e-14_wp, element%name//' total mass', total)
@@ -208,8 +236,9 @@ contains
     end do
   end subroutine test_mass
 
-  !> Area of the polygon; volume by the divergence theorem: a third of the integral of x.n over
-  !> the bilinear faces, exact with 2 x 2 points.
+  !> Area of the polygon; of a ring its first moment times 2 pi (Pappus); volume by the
+  !> divergence theorem: a third of the integral of x.n over the bilinear faces, exact with
+  !> 2 x 2 points.
   real(wp) function measure(x)
     real(wp), intent(in) :: x(:, :)
     integer :: f, m
@@ -218,6 +247,11 @@ contains
       m = element%face_size(f)
       if (m > 4) m = merge(3, 4, m == 6)
       associate (node => element%face(:m, f))
+        if (element%is_ring) then
+          measure = measure + acos(-one)/3.0_wp*(x(2, node(2)) - x(2, node(1))) &
+              *(x(1, node(1))**2 + x(1, node(1))*x(1, node(2)) + x(1, node(2))**2)
+          cycle
+        end if
         if (element%dim == 2) measure = measure + half*(x(1, node(1))*x(2, node(2)) &
             - x(1, node(2))*x(2, node(1)))
         if (element%dim == 3) measure = measure + flux(x(:, [node, node(m)]))/3.0_wp

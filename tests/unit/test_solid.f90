@@ -8,12 +8,13 @@ program test_solid
   use element_base, only: element_t
   use element_registry, only: make_element
   use law_cases, only: case_t, make_cases
-  use material_base, only: plane_strain, plane_stress, in_space
+  use material_base, only: plane_strain, plane_stress, axisymmetric, in_space
   use solid_block, only: solid_t, force_rule_t, force_ends, force_middle, force_conserving, &
       make_solid, begin_step, element_force, element_tangent, element_energy
   implicit none
   type(case_t), allocatable :: cases(:)
   character(8), parameter :: plane_names(2) = [character(8) :: 'QUAD4', 'TRI3']
+  character(8), parameter :: ring_names(2) = [character(8) :: 'QUAD4AX', 'TRI3AX']
   character(8), parameter :: space_names(6) = [character(8) :: 'HEX8', 'TET4', 'WEDGE6', &
       'PYRAMID5', 'TET10', 'HEX27']
   logical :: shown
@@ -27,7 +28,9 @@ program test_solid
   do k = 1, size(cases)
     do e = 1, size(plane_names)
       call test_element(cases(k), plane_names(e), plane_strain, .false.)
+      call test_element(cases(k), ring_names(e), axisymmetric, .false.)
     end do
+    call test_element(cases(k), 'QUAD4AX', axisymmetric, .true.)
     call test_element(cases(k), 'QUAD4', plane_stress, .false.)
     call test_element(cases(k), 'QUAD4', plane_strain, .true.)
     call test_element(cases(k), 'HEX8', in_space, .true.)
@@ -54,6 +57,7 @@ contains
     label = trim(case%name)//', '//trim(name)//merge(' mean', '     ', is_mean)
     if (plane == plane_stress) label = label//', plane stress'
     x = places(element)
+    if (element%is_ring) x(1, :) = x(1, :) + 0.4_wp
     call make_solid(element, case%law, plane, is_mean, 0.7_wp, 1, &
         reshape([(k, k=1, element%nodes)], [element%nodes, 1]), x, solid)
     allocate (u, d, mold=x)
@@ -82,7 +86,7 @@ contains
       corner(:5) = [1, 2, 3, 4, 5]
     case ('TET4')
       corner(:4) = [1, 2, 4, 5]
-    case ('TRI3')
+    case ('TRI3', 'TRI3AX')
       corner(:3) = [1, 2, 4]
     case default
       corner = [1, 2, 3, 4, 5, 6, 7, 8]
@@ -181,6 +185,10 @@ contains
     change = element_energy(solid, 1, u + x) - element_energy(solid, 1, u)
     scale = maxval(abs(f))
     call judge(abs(sum(f*x) - change)/scale, 1.0e-13_wp, label//': conserving, work')
+    if (solid%plane == axisymmetric) then    ! along the axis alone
+      call judge(abs(sum(f(2, :)))/scale, 1.0e-13_wp, label//': conserving, resultant')
+      return
+    end if
     call judge(maxval(abs(sum(f, dim=2)))/scale, 1.0e-13_wp, label//': conserving, resultant')
     moment = zero
     do a = 1, size(u, 2)
@@ -194,7 +202,7 @@ contains
     call judge(maxval(abs(moment))/scale, 1.0e-13_wp, label//': conserving, moment')
   end subroutine test_conserving
 
-  !> A quarter turn about z, far away: no force.
+  !> A quarter turn about z, far away: no force. Around an axis a motion along it.
   subroutine test_rigid(solid, place, label)
     type(solid_t), intent(in) :: solid
     real(wp), intent(in) :: place(:, :)
@@ -203,6 +211,10 @@ contains
     u = zero
     u(1, :) = -place(2, :) - place(1, :)
     u(2, :) = place(1, :) - place(2, :)
+    if (solid%plane == axisymmetric) then
+      u(1, :) = zero
+      u(2, :) = 1.0e3_wp
+    end if
     call element_force(solid, 1, force_rule_t(kind=force_ends, before=one, now=zero), u, u, f)
     call judge(maxval(abs(f)), 1.0e-10_wp, label//': a quarter turn')
   end subroutine test_rigid

@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# axis_blown_tube in axis_finite.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/axis_finite.py" axis_blown_tube

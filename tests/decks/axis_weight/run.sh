@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# axis_weight in axis.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/axis.py" axis_weight
