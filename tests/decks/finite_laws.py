@@ -297,8 +297,8 @@ def finite_contact_ledgers():
                     continue
                 lines = []
                 for number, name in enumerate(names, start=1):
-                    low = (0.0, 0.0, 0.0) if number == 1 else (0.21, 1.003, 0.17)
-                    size = 1.0 if number == 1 else 0.6
+                    low = (0.0, 0.0, 0.0) if number == 1 else (0.31, 1.003, 0.17)
+                    size = 1.0
                     if space:
                         mesh = Box((2, 2, 2), (size,) * 3, origin=low)
                     else:
