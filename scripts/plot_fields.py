@@ -6,7 +6,7 @@
     plot_fields.py RUN --field V:x --xt                   over x (mean over y) and time (PNG)
 
 RUN is the directory of a run with *BIPACT_FIELD. A field is a name, or NAME:component: x, y, z,
-size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL. Displacements are
+size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL and STRETCH. Displacements are
 magnified by --scale in snapshots and animations. Lines are the boundaries of bodies and parts;
 of solids the faces of their surface are drawn, by PyVista where it is installed.
 Dimensions in brackets: [L] length, [T] time, [F] force; a deck has no other units."""
@@ -30,6 +30,7 @@ from exact_scene import ECHO, Deck  # noqa: E402
 from fields import Fields  # noqa: E402
 
 VECTOR = {"x": 0, "y": 1, "z": 2}
+RANKS = {"1": 0, "2": 1, "3": 2}
 STRESS = {"xx": 0, "yy": 1, "zz": 2, "xy": 3, "yz": 4, "xz": 5}
 QUANTITY = {
     "U": ("displacement", "L"),
@@ -41,6 +42,8 @@ QUANTITY = {
     "STRESS": ("stress", "F/L^2"),
     "ENERGY": ("strain energy of an element", "F L"),
     "PRINCIPAL": ("principal stress", "F/L^2"),
+    "STRETCH": ("principal stretch", ""),
+    "PLASTIC": ("equivalent plastic strain", ""),
     "PART": ("part", ""),
 }
 STATES = ("no surface", "open", "stick", "slip")  # STATUS -1, 0, 1, 2
@@ -60,7 +63,7 @@ def component(values, name, part):
         xx, yy, zz, xy, yz, xz = values.T
         shear = 3.0 * (xy**2 + yz**2 + xz**2)
         return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + shear)
-    places = {"STRESS": STRESS, "PRINCIPAL": {"1": 0, "2": 1, "3": 2}}.get(name, VECTOR)
+    places = {"STRESS": STRESS, "PRINCIPAL": RANKS, "STRETCH": RANKS}.get(name, VECTOR)
     if part not in places:
         raise SystemExit("%s has no component '%s': %s" % (name, part, " ".join(places)))
     return values[:, places[part]]
@@ -127,7 +130,7 @@ class Picture:
             known = " ".join(sorted(self.run.names))
             raise SystemExit("no field %s; there are: %s" % (name, known))
         self.name = name
-        self.part = part or {"STRESS": "mises", "PRINCIPAL": "1"}.get(name, "size")
+        self.part = part or {"STRESS": "mises", "PRINCIPAL": "1", "STRETCH": "1"}.get(name, "size")
         self.label = self.words(self.run.frame(0, name).ndim)
         self.corners = padded(self.run.cells)
         count = np.array([len(c) for c in self.run.cells])

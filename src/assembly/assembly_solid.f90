@@ -14,8 +14,8 @@ module assembly_solid
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
-      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_stretch, exchange_solids, &
-      plastic_work
+      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_stretch, &
+      exchange_solids, plastic_work
 
 contains
 
@@ -38,8 +38,8 @@ contains
     end do
   end subroutine make_solids
 
-  !> Does a part have mean dilatation? Bilinear elements of laws that keep their volume do, where
-  !> QP0 says nothing else; plane stress has no such need.
+  !> Does a part have mean dilatation? Bilinear elements of laws that keep their volume do,
+  !> where QP0 says nothing else; plane stress has no such need.
   pure logical function takes_mean(model, element, material, plane)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element

@@ -66,9 +66,9 @@ contains
     end do
   end subroutine take_gaps_back
 
-  !> Row a of a node against an edge: where smooth edges share a normal, the point of the edge is
-  !> moved so that the node stands before it along that normal in the middle of the step; their
-  !> forces then have no moment.
+  !> Row a of a node against an edge: where smooth edges share a normal, the point of the edge
+  !> is moved so that the node stands before it along that normal in the middle of the step;
+  !> their forces then have no moment.
   pure subroutine stand_before(contact, x, u, rows, a)
     type(contact_t), intent(in) :: contact
     real(wp), intent(in) :: x(:, :), u(:, :)

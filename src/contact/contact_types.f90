@@ -41,8 +41,8 @@ module contact_types
     type(late_t), allocatable :: late(:)          !< rows to be added
     integer :: late_rounds = 0                    !< of this step
     integer :: most_late_rounds = 3               !< in which frames are set anew
-    !> (dim, nodes) half of the motion that Newton's method has found so far: rows of bodies have
-    !> the frames of the middle of the step. Only at finite deformation with FRAME MID [L]
+    !> (dim, nodes) half of the motion that Newton's method has found so far: rows of bodies
+    !> have the frames of the middle of the step. Only at finite deformation with FRAME MID [L]
     real(wp), allocatable :: half_motion(:, :)
     !> Rows stay as they are from pass to pass, but for those that are missing.
     logical :: keeps_rows = .false.

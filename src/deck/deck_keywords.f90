@@ -136,7 +136,8 @@ contains
     call add_keyword(table, 'CONTROL_IMPLICIT_SOLUTION', 'linear or not', required=1, &
         once=.true.)
     call add_card(table)
-    call add_field(table, 'NSOLVR', 'I10 =1 0=d', '1 small displacements, 12 finite deformation')
+    call add_field(table, 'NSOLVR', 'I10 =1 0=d', &
+        '1 small displacements, 12 finite deformation')
     call add_nonlinear(table, 'ILIMIT', 'I10 note =11 0=d')
     call add_nonlinear(table, 'MAXREF', 'I10 note =15 0=d')
     call add_nonlinear(table, 'DCTOL', 'R10 note =0.001 0=d')

@@ -19,8 +19,11 @@ module deck_names
       'BIPACT_TIMING', 'DATABASE_RWFORC', 'DATABASE_RBDOUT']
 
   !> Fields that a file of frames may hold.
-  character(9), parameter, public :: field_names(10) = [character(9) :: 'U', 'V', 'FORCE', &
-      'PRESSURE', 'GAP', 'STATUS', 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART']
+  character(9), parameter, public :: field_names(12) = [character(9) :: 'U', 'V', 'FORCE', &
+      'PRESSURE', 'GAP', 'STATUS', 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART', 'STRETCH', &
+      'PLASTIC']
+  !> Those of finite deformation alone.
+  character(9), parameter, public :: finite_fields(2) = [character(9) :: 'STRETCH', 'PLASTIC']
 
   !> Lengths of the steps: all DT0; halved where one is refused; cut where bodies touch.
   integer, parameter, public :: step_fixed = 1, step_halve = 2, step_event = 3

@@ -8,11 +8,11 @@ module output_fields
   use contact_pairing, only: no_gap
   use contact_types, only: contact_t
   use element_base, only: most_nodes, most_strains
-  use deck_names, only: field_names
+  use deck_names, only: finite_fields, field_names
   use material_base, only: strains_in
   use model_data, only: model_t
   use model_state, only: state_t
-  use solid_output, only: element_cauchy
+  use solid_output, only: element_cauchy, element_stretches, element_plastic_strain
   use output_principal, only: fill_principal
   use output_storage, only: mesh_t, field_t
   use output_table, only: next_due
@@ -88,12 +88,13 @@ contains
     field%name = name
     components = 1
     select case (name)
-    case ('U', 'V', 'FORCE', 'PRINCIPAL')
+    case ('U', 'V', 'FORCE', 'PRINCIPAL', 'STRETCH')
       components = 3
     case ('STRESS')
       components = 6
     end select
-    field%at_nodes = all(name /= [character(9) :: 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART'])
+    field%at_nodes = all(name /= [character(9) :: 'STRESS', 'ENERGY', 'PRINCIPAL', 'PART', &
+        finite_fields])
     field%whole = name == 'STATUS' .or. name == 'PART'
     field%constant = name == 'PART'
     allocate (field%values(components, merge(nodes, cells, field%at_nodes)))
@@ -224,6 +225,8 @@ contains
         case ('PRINCIPAL')
           call find_stress(system, fields, state%u, fields%stress)
           call fill_principal(model%dim, fields%stress, values)
+        case ('STRETCH', 'PLASTIC')
+          call fill_finite(system, fields%cell, state%u, fields%field(k)%name, values)
         case ('ENERGY')
           do i = 1, size(fields%cell)
             values(1, i) = half*element_product(system, fields%cell(i), state%u)
@@ -232,6 +235,25 @@ contains
       end associate
     end do
   end subroutine fill_fields
+
+  !> Principal stretches, or the equivalent plastic strain, of each cell.
+  pure subroutine fill_finite(system, cell, u, name, values)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: cell(:)
+    real(wp), intent(in) :: u(:, :)
+    character(*), intent(in) :: name
+    real(wp), intent(inout) :: values(:, :)
+    integer :: i
+    do i = 1, size(cell)
+      associate (solid => system%solid(system%block_of(cell(i))))
+        if (name == 'STRETCH') then
+          call element_stretches(solid, cell(i) - solid%first + 1, u, values(:, i))
+        else
+          values(1, i) = element_plastic_strain(solid, cell(i) - solid%first + 1)
+        end if
+      end associate
+    end do
+  end subroutine fill_finite
 
   !> Stress of the cells from the displacements u (dim, nodes) of their nodes.
   pure subroutine find_stress(system, fields, u, stress)

@@ -4,7 +4,7 @@ module scene_storage
   use base_kinds, only: wp, zero
   use deck_data, only: deck_t
   use deck_problems, only: add_note
-  use deck_names, only: field_names
+  use deck_names, only: field_names, finite_fields
   use model_data, only: model_t, field_request_t, restart_request_t
   use scene_ids, only: maps_t, find_or_complain
   implicit none
@@ -24,7 +24,7 @@ contains
     if (own > 0) then
       if (other > 0) call add_note(deck%problems, deck%place(other)// &
           ': *DATABASE_BINARY_D3PLOT has no effect beside *BIPACT_FIELD')
-      call read_field(deck, own, maps, model%requests%field)
+      call read_field(deck, own, maps, model%controls%is_finite, model%requests%field)
     else if (other > 0) then
       associate (field => model%requests%field)
         field%interval = deck%real(other, 'DT')
@@ -38,10 +38,11 @@ contains
     call read_restart(deck, model%requests%restart)
   end subroutine read_storage
 
-  subroutine read_field(deck, record, maps, field)
+  subroutine read_field(deck, record, maps, is_finite, field)
     type(deck_t), intent(inout) :: deck
     integer, intent(in) :: record
     type(maps_t), intent(in) :: maps
+    logical, intent(in) :: is_finite
     type(field_request_t), intent(inout) :: field
     integer :: bits
     field%interval = deck%real(record, 'DT')
@@ -54,11 +55,12 @@ contains
     if (deck%is_given(record, 'TEND')) field%end = deck%real(record, 'TEND')
     if (field%end < field%begin) &
         call deck%complain(record, 'TEND', 'TEND is before TBEG: no frame')
-    call read_names(deck, field)
+    call read_names(deck, is_finite, field)
   end subroutine read_field
 
-  subroutine read_names(deck, field)
+  subroutine read_names(deck, is_finite, field)
     type(deck_t), intent(inout) :: deck
+    logical, intent(in) :: is_finite
     type(field_request_t), intent(inout) :: field
     character(:), allocatable :: word
     integer :: r, m, k
@@ -66,7 +68,11 @@ contains
     do while (r > 0)
       do m = 1, 8
         word = deck%word(r, 'NAME'//achar(48 + m))
-        if (word == 'ALL') field%wanted = .true.
+        if (word == 'ALL') field%wanted = field%wanted .or. is_finite .or. &
+            [(all(field_names(k) /= finite_fields), k=1, size(field_names))]
+        if (.not. is_finite .and. any(word == finite_fields)) call deck%complain(r, 'NAME'// &
+            achar(48 + m), word//' is a field of finite deformation', &
+            'NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION asks for it')
         do k = 1, size(field_names)
           if (word == field_names(k)) field%wanted(k) = .true.
         end do

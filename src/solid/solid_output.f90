@@ -3,13 +3,14 @@
 module solid_output
   use base_kinds, only: wp, zero, one, two
   use material_plane, only: respond_as
-  use material_tensor, only: component, first_index, second_index
+  use material_tensor, only: component, first_index, second_index, spectrum, &
+      tensor_strain => green_strain
   use solid_block, only: solid_t, relative
   use solid_mean, only: mean_response
   use solid_points, only: displacement_gradient, green_strain
   implicit none
   private
-  public :: element_cauchy
+  public :: element_cauchy, element_stretches, element_plastic_strain
 
 contains
 
@@ -35,6 +36,42 @@ contains
     end do
     stress = stress/volume
   end subroutine element_cauchy
+
+  !> Principal stretches of element k, the largest first: of the mean of its strains; 1 of a
+  !> rigid part.
+  pure subroutine element_stretches(solid, k, u, stretch)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(out) :: stretch(3)
+    real(wp), dimension(6, solid%points) :: e, s
+    real(wp) :: a(solid%dim, solid%nodes), f(3, 3, solid%points), strain(3), axis(3, 3)
+    real(wp) :: mean(6)
+    integer :: g
+    stretch = one
+    if (solid%n == 0) return
+    call relative(solid, k, u, a)
+    call stresses_in_space(solid, k, a, f, e, s)
+    mean = zero
+    do g = 1, solid%points
+      mean = mean + solid%weight(g, k)*e(:, g)
+    end do
+    call spectrum(tensor_strain(mean/sum(solid%weight(:, k))), strain, axis)
+    stretch = sqrt(one + two*strain)
+    stretch = [maxval(stretch), sum(stretch) - maxval(stretch) - minval(stretch), &
+        minval(stretch)]
+  end subroutine element_stretches
+
+  !> Equivalent plastic strain of element k, mean over its points; 0 where nothing flows.
+  pure real(wp) function element_plastic_strain(solid, k) result(strain)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    strain = zero
+    if (solid%n == 0) return
+    if (solid%material%strain_state == 0) return
+    strain = dot_product(solid%weight(:, k), &
+        solid%history(solid%material%strain_state, :, k))/sum(solid%weight(:, k))
+  end function element_plastic_strain
 
   !> F in its rows and columns of the plane or space, the six strains and second Piola-Kirchhoff
   !> stresses of the points.

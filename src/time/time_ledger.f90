@@ -20,8 +20,8 @@ module time_ledger
     type(contact_work_t) :: contact  !< lost so far: friction, normal; gained: unsolved
     real(wp) :: algorithmic = zero   !< taken out by the scheme so far
     real(wp) :: damping = zero
-    !> Strain energies of the parts at the start of the step just done, only of explicit steps at
-    !> finite deformation, whose energy is the mean of both ends [F L].
+    !> Strain energies of the parts at the start of the step just done, only of explicit steps
+    !> at finite deformation, whose energy is the mean of both ends [F L].
     real(wp), allocatable :: part_before(:)
     real(wp) :: plastic = zero          !< plastic work, stored hardening included
     real(wp) :: residual = zero      !< of the balance / largest term so far
