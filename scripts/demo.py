@@ -4,8 +4,8 @@
 Needs bin/bipact and the decks input/two_bars/newmark.k, theta.k, theta_dispersion.k.  Writes
 demo.out/NAME/ (the run directories) and demo.out/*.png: figures 1-4 of the paper, the
 contact force, the waves over x and t (of waves.k), a ball on a plate in space and, animated,
-a foam block that folds on a floor (where HDF5 is there).  Exit code 1 if a run or a comparison
-fails.
+a foam block that folds on a floor (where HDF5 is there).
+Exit code 1 if a run or a comparison fails.
 """
 
 import argparse

@@ -41,6 +41,7 @@ def pulled(name, stretch, mesh, plane=13):
     corner = np.argmax(mesh.x.sum(axis=1)) + 1
     element = "SOLID" if dim == 3 else "SHELL"
     lines += ["*DATABASE_HISTORY_NODE", "%d," % corner, "*DATABASE_HISTORY_" + element, "1,"]
+    lines += ["*BIPACT_FIELD", "1.0,", "PLASTIC,"]
     tables = ("GLSTAT", "SPCFORC", "NODOUT", "ELOUT")
     folder = run("pulled", deck(lines, 0.1, 1.0, static=True, tables=tables))
     return folder, [r + 1 for r in mesh.on(0, 1.0)]
@@ -106,6 +107,10 @@ def finite_uniaxial():
             at_most(np.abs(rows["residual"]).max(), LEDGER, label + "balance")
             if name in PLASTIC:
                 check(rows["plastic"][-1] > 0.0, label + "plastic work")
+            with h5py.File(os.path.join(folder, "fields.000.vtkhdf")) as file:
+                got = file["VTKHDF/CellData/PLASTIC"][-len(mesh.elements) :]
+            want = abs(np.log(stretch) - tau / 100.0) if name in PLASTIC else 0.0
+            at_most(np.abs(got - want).max(), STATE, label + "plastic strain")
 
 
 def finite_statics():
@@ -181,7 +186,7 @@ def finite_fields():
                 number, factor = (1, float(u)) if u else (2, 1.0)
                 lines.append("%d,%d,2,%d,%r" % (r + 1, d + 1, number, factor))
         lines += ["*DATABASE_HISTORY_" + ("SHELL" if plane else "SOLID"), "1,2"]
-        lines += ["*BIPACT_FIELD", "1.0,", "U,STRESS"]
+        lines += ["*BIPACT_FIELD", "1.0,", "U,STRESS,STRETCH"]
         text = deck(lines, 0.1, 1.0, static=True, tables=("GLSTAT", "ELOUT"))
         folder = run("uniform", text)
         if plane == 12:  # the third stretch has no stress
@@ -202,7 +207,10 @@ def finite_fields():
         at_most(np.abs(got - six).max() / np.abs(six).max(), STATE, label + "ELOUT")
         with h5py.File(os.path.join(folder, "fields.000.vtkhdf")) as file:
             got = file["VTKHDF/CellData/STRESS"][-len(mesh.elements) :]
+            stretches = file["VTKHDF/CellData/STRETCH"][-len(mesh.elements) :]
         at_most(np.abs(got - six).max() / np.abs(six).max(), STATE, label + "STRESS")
+        want = np.sqrt(square)[::-1]
+        at_most(np.abs(stretches - want).max(), STATE, label + "STRETCH")
 
 
 SCHEMES = (
