@@ -9,7 +9,8 @@ RUN is the directory of a run with *BIPACT_FIELD. A field is a name, or NAME:com
 size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL and STRETCH.
 Displacements are magnified by --scale in snapshots and animations. Lines are the boundaries
 of bodies and parts; of solids the faces of their surface are drawn, by PyVista where it is
-installed. Dimensions in brackets: [L] length, [T] time, [F] force; a deck has no other units."""
+installed. Dimensions in brackets: [L] length, [T] time, [F] force; a deck has no other
+units."""
 
 import argparse
 import os
