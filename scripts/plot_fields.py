@@ -131,7 +131,8 @@ class Picture:
             known = " ".join(sorted(self.run.names))
             raise SystemExit("no field %s; there are: %s" % (name, known))
         self.name = name
-        self.part = part or {"STRESS": "mises", "PRINCIPAL": "1", "STRETCH": "1"}.get(name, "size")
+        first = {"STRESS": "mises", "PRINCIPAL": "1", "STRETCH": "1"}
+        self.part = part or first.get(name, "size")
         self.label = self.words(self.run.frame(0, name).ndim)
         self.corners = padded(self.run.cells)
         count = np.array([len(c) for c in self.run.cells])
