@@ -6,7 +6,8 @@
     plot_fields.py RUN --field V:x --xt                   over x (mean over y) and time (PNG)
 
 RUN is the directory of a run with *BIPACT_FIELD. A field is a name, or NAME:component: x, y, z,
-size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL and STRETCH. Displacements are
+size of a vector; xx, yy, zz, xy, mises of STRESS; 1, 2, 3 of PRINCIPAL and STRETCH.
+Displacements are
 magnified by --scale in snapshots and animations. Lines are the boundaries of bodies and parts;
 of solids the faces of their surface are drawn, by PyVista where it is installed.
 Dimensions in brackets: [L] length, [T] time, [F] force; a deck has no other units."""
