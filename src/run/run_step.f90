@@ -85,6 +85,7 @@ contains
       if (s%tries == 0 .and. may_be_refused(run)) call keep_moment(run)
       if (.not. (abs(h - run%scheme%h) > zero .or. s%new_interface)) return
       call run%scheme%set_step(h)
+      if (allocated(run%newton)) run%x = zero    ! that of a refused step may be anything
       call factor_matrix(run, s%new_interface, status)
       s%new_interface = .false.
     end associate

@@ -108,6 +108,21 @@ def finite_halved():
             code == 1 and "element 1" in errors and "inside out" in errors,
             "inside out: exit %d: %s" % (code, errors),
         )
+    # A refused step leaves nothing behind: its halves are those of a run of half the step.
+    h = 2.0**-7
+    block, bar = Grid(8, 4, (2.0, 1.0), (-1.0, -0.5)), Grid(2, 1, (2.0, 1.0), (0.0, 3.0))
+    lines = finite() + body(block, "mooney") + body(bar, "plastic", 2, 1000)
+    lines += thrown(spinning(block.x, 60.0), range(len(block.x)))
+    lines += thrown([(20.0 * x[0], 0.0) for x in bar.x], range(len(bar.x)), 1000)
+    one = deck(lines, h, h)
+    folder, code, errors = run_text("one", one, "--quiet")
+    check(code == 1 and "step 0" in errors, "one step: exit %d: %s" % (code, errors))
+    halved = table(run("once", one.replace("*END", "*BIPACT_STEP\nHALVE\n*END")), "glstat")
+    two = table(run("two", deck(lines, h / 2, h)), "glstat")
+    check(two["plastic"][-1] > 0.0, "plastic work")
+    for c in halved.names:
+        check(c == "dt" or halved[c][-1] == two[c][-1], "restored: %s" % c)
+
 
 
 def spin(scheme, courant, mass="LUMPED,0", force=""):
