@@ -113,8 +113,6 @@ contains
     if (.not. is_built) call deck%complain(r, 'NSOLVR', 'scheme '// &
         trim(controls%scheme)//' of *BIPACT_TIME is not available at finite deformation', &
         'take SCHEME THETA, NEWMARK for comparison, or PAOLI with PBETA 0')
-    if (controls%redistribute) call deck%complain(deck%next('BIPACT_MASS', 1, 0), 'REDIST', &
-        'massless contact nodes are not available at finite deformation')
     if (controls%mass == 'DISPERSION') call deck%complain(deck%next('BIPACT_MASS', 1, 0), &
         'TYPE', 'DISPERSION is tuned to one speed of waves, which changes with the strain', &
         'take CONSISTENT or LUMPED')
