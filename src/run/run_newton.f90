@@ -97,10 +97,25 @@ contains
     call check_compression(run, is_done, run%state%u + run%x, status)
     if (failed(status)) return
     call count_work(run)
-    if (.not. is_done) call fail(status, status_numerical, "Newton's method has not "// &
-        'converged in '//to_text(run%newton%most_passes)//' passes: the last moved by '// &
-        to_text(change), hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
+    if (.not. is_done) call refuse_passes(run, change, status)
   end subroutine solve_newton
+
+  !> No convergence: in a load step often because there is no stable state.
+  subroutine refuse_passes(run, change, status)
+    type(run_t), intent(in) :: run
+    real(wp), intent(in) :: change
+    type(status_t), intent(inout) :: status
+    character(:), allocatable :: text, hint
+    text = "Newton's method has not converged in "//to_text(run%newton%most_passes)// &
+        ' passes: the last moved by '//to_text(change)
+    hint = 'take a smaller step, or MODE HALVE of *BIPACT_STEP'
+    if (run%step%is_static .and. .not. run%system%force_rule%geometric > zero) then
+      text = text//'; its matrix is not positive definite'
+      hint = 'no stable state may be near: a limit of the load, or buckling; take a smaller '// &
+          'load step, or a run in time'
+    end if
+    call fail(status, status_numerical, text, hint=hint)
+  end subroutine refuse_passes
 
   !> The first x, and what the passes of a step share.
   subroutine begin_iteration(run, stage, t1)
@@ -229,14 +244,14 @@ contains
   end subroutine measure_balance
 
   !> The tangent at x. Where it is not positive definite the part that the stresses make is left
-  !> out for the rest of the step: what remains is, and its solution is the same.
+  !> out, for the rest of a step in time: what remains is, and its solution is the same.
   subroutine factor_tangent(run, is_first, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: is_first
     type(status_t), intent(inout) :: status
     if (failed(status)) return
     run%newton%factors = run%newton%factors + 1
-    if (is_first) run%system%force_rule%geometric = one
+    if (is_first .or. run%step%is_static) run%system%force_rule%geometric = one
     call factor_matrix(run, .false., status)
     if (status%code /= status_numerical) return
     if (.not. run%system%force_rule%geometric > zero) return
@@ -247,7 +262,8 @@ contains
         'of *BIPACT_STEP; or is a part held by nothing?'
   end subroutine factor_tangent
 
-  !> At the start, and where the last passes converged slowly: or as the deck says.
+  !> At the start, and where the last passes converged slowly; in a load step, whose matrix no
+  !> mass keeps definite, each time; or as the deck says.
   pure logical function needs_factor(run, pass, change, last)
     type(run_t), intent(in) :: run
     integer, intent(in) :: pass
@@ -256,6 +272,8 @@ contains
     associate (i => run%model%controls%iteration)
       if (i%every > 0) then
         needs_factor = mod(pass - 1, i%every) == 0
+      else if (run%step%is_static) then
+        needs_factor = .true.
       else
         needs_factor = pass == 1 .or. any(pass == tried) .or. &
             pass > 3 .and. change > half*last
