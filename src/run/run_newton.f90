@@ -81,6 +81,7 @@ contains
     last = huge(one)
     do pass = 1, run%newton%most_passes
       call find_residual(run, stage)
+      if (pass > 2 .and. change > last) call step_back(run, stage)
       if (pass > 1) call judge(run, change, last, pass, is_done)
       if (is_done) exit
       if (needs_factor(run, pass, change, last)) call factor_tangent(run, pass == 1, status)
@@ -168,6 +169,46 @@ contains
         run%given, run%b)
     call clear_fixed(run%system, run%b)
   end subroutine push_motions
+
+  !> Where corrections grow the last may have been too long: half of it is taken back as long as
+  !> less is left of the balance then.
+  subroutine step_back(run, stage)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: stage
+    integer, parameter :: most_halvings = 4
+    real(wp) :: left, before, largest
+    integer :: k
+    call measure_balance(run, before, largest)
+    do k = 1, most_halvings
+      run%newton%d = half*run%newton%d
+      call shift(run, -one)
+      call find_residual(run, stage)
+      call measure_balance(run, left, largest)
+      if (left < before) then
+        before = left
+        cycle
+      end if
+      call shift(run, one)
+      call find_residual(run, stage)
+      return
+    end do
+  end subroutine step_back
+
+  !> x = x + share d; what driven dofs have still to go is so much less.
+  subroutine shift(run, share)
+    type(run_t), intent(inout) :: run
+    real(wp), intent(in) :: share
+    integer :: k
+    run%x = run%x + share*run%newton%d
+    if (.not. run%plan%motions) return
+    associate (list => run%system%fixed_list)
+      do k = 1, size(list, 2)
+        associate (d => list(1, k), i => list(2, k))
+          run%given(d, i) = run%given(d, i) - share*run%newton%d(d, i)
+        end associate
+      end do
+    end associate
+  end subroutine shift
 
   !> run%b: what is left of the balance at x but for contact, held dofs cleared.
   subroutine find_residual(run, stage)
@@ -330,10 +371,10 @@ contains
         return
       end if
     end do
-    run%x = run%x + share*run%newton%d
     run%newton%volume = volume
-    if (run%plan%motions) run%given = (one - share)*run%given
     change = maxval(abs(run%newton%d))
+    if (share < one) run%newton%d = share*run%newton%d
+    call shift(run, one)
   end subroutine move_on
 
   subroutine refuse_inversion(run, element, status)
