@@ -39,8 +39,8 @@ contains
     end do
   end subroutine make_solids
 
-  !> Does a part have mean dilatation? Linear elements of several points, of laws that keep their
-  !> volume, do, where QP0 says nothing else; plane stress has no such need.
+  !> Does a part have mean dilatation? Linear elements of several points, of laws that keep
+  !> their volume, do, where QP0 says nothing else; plane stress has no such need.
   pure logical function takes_mean(model, element, material, plane)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element

@@ -146,10 +146,10 @@ contains
         'largest motion of the step; blank = 1e-11')
     call add_nonlinear(table, 'ECTOL', 'R10 note =0.01 0=d')
     call add_field(table, 'RCTOL', 'R10 >=0', 'with NSOLVR 12: what is left of the balance '// &
-        'over the largest force on a node; blank = not asked for')
+        'over the largest nodal force; blank = not asked')
     call add_nonlinear(table, 'LSTOL', 'R10 note =0.9 0=d')
-    call add_field(table, 'ABSTOL', 'R10', 'with NSOLVR 12: what may be left of the '// &
-        'balance whatever the rest says, its size; blank = nothing [F]')
+    call add_field(table, 'ABSTOL', 'R10', 'with NSOLVR 12: size of what may be left in '// &
+        'any case; blank = 0 [F]')
     call add_card(table)
     call add_nonlinear(table, 'DNORM', 'I10 note =2 0=d >=0')
     call add_nonlinear(table, 'DIVERG', 'I10 note =1 0=d')

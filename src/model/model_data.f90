@@ -169,7 +169,7 @@ module model_data
 
   !> Newton's method in a step: what *CONTROL_IMPLICIT_SOLUTION may change.
   type, public :: iteration_t
-    integer :: every = 0            !< ILIMIT: passes that a factor serves; 0 = while it does well
+    integer :: every = 0            !< ILIMIT: passes that a factor serves; 0 = by itself
     integer :: most_factors = 0     !< MAXREF, in a step; 0 = no limit
     real(wp) :: motion = 1.0e-11_wp !< DCTOL: largest correction over largest motion of the step
     real(wp) :: force = 0.0_wp      !< RCTOL: what is left over the largest force; 0 = not asked

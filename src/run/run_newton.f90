@@ -112,8 +112,8 @@ contains
     hint = 'take a smaller step, or MODE HALVE of *BIPACT_STEP'
     if (run%step%is_static .and. .not. run%system%force_rule%geometric > zero) then
       text = text//'; its matrix is not positive definite'
-      hint = 'no stable state may be near: a limit of the load, or buckling; take a smaller '// &
-          'load step, or a run in time'
+      hint = 'no stable state may be near: a limit of the load, or buckling; take a '// &
+          'smaller load step, or a run in time'
     end if
     call fail(status, status_numerical, text, hint=hint)
   end subroutine refuse_passes

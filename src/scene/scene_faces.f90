@@ -100,7 +100,8 @@ contains
     end do
   end subroutine warn_of_locking
 
-  !> Do hexahedra, wedges and pyramids of a part have mean dilatation by their law? So at finite deformation.
+  !> Do hexahedra, wedges and pyramids of a part have mean dilatation by their law? So at finite
+  !> deformation.
   pure logical function keeps_volume(model, p)
     type(model_t), intent(in) :: model
     integer, intent(in) :: p

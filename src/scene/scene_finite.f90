@@ -2,7 +2,7 @@
 !> Finite deformation: NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, *BIPACT_KINEMATICS, and what
 !> does not go with them.
 module scene_finite
-  use base_kinds, only: zero, half
+  use base_kinds, only: wp, zero, half
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_note
@@ -46,10 +46,15 @@ contains
     integer, intent(in) :: r
     character(6), parameter :: fields(5) = [character(6) :: 'ILIMIT', 'MAXREF', 'DCTOL', &
         'RCTOL', 'ABSTOL']
+    !> What others fill in where nobody asks.
+    real(wp), parameter :: filled(5) = [11.0_wp, 15.0_wp, 1.0e-3_wp, 1.0e10_wp, 1.0e-10_wp]
+    real(wp) :: value
     integer :: k
     if (.not. controls%is_finite) then
       do k = 1, size(fields)
-        if (deck%is_given(r, trim(fields(k)))) exit
+        if (k <= 2) value = deck%integer(r, trim(fields(k)))
+        if (k > 2) value = deck%real(r, trim(fields(k)))
+        if (abs(value) > zero .and. abs(value - filled(k)) > 1.0e-6_wp*filled(k)) exit
       end do
       if (k <= size(fields)) call add_note(deck%problems, '*CONTROL_IMPLICIT_SOLUTION '// &
           trim(fields(k))//' has no effect: small displacements need no iterations')
