@@ -97,7 +97,7 @@ def finite_halved():
         check("steps halved 0" not in log.read(), "halved: the log counts it")
     # A squeezed element: its top is driven through its foot.
     mesh = Grid(1, 1)
-    lines = finite() + body(mesh, "elastic")
+    lines = finite() + body(mesh, "foam")
     lines += ["*SET_NODE_LIST", "1,", "1,2", "*SET_NODE_LIST", "2,", "3,4"]
     lines += ["*BOUNDARY_SPC_SET", "1,,1,1", "2,,1,0", "*BOUNDARY_PRESCRIBED_MOTION_SET"]
     lines += ["2,2,2,1", "*DEFINE_CURVE", "1,", "0.0,0.0", "1.0,-1.5"]

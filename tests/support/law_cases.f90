@@ -43,7 +43,6 @@ contains
     a = 0.4_wp*shear
     b = 0.1_wp*shear
     call add('elastic', 'MAT_ELASTIC', [one, young, poisson], poisson)
-    call add('hencky', 'MAT_ELASTIC HENCKY', [one, young, poisson], poisson)
     call add('rubber', 'MAT_BLATZ-KO_RUBBER', [one, shear], 0.463_wp)
     call add('foam', 'MAT_BLATZ-KO_FOAM', [one, shear], 0.25_wp)
     call add('mooney .495', 'MAT_MOONEY-RIVLIN_RUBBER', [one, 0.495_wp, a, b], 0.495_wp)
@@ -61,6 +60,7 @@ contains
     end do
     call add('piecewise', 'MAT_PIECEWISE_LINEAR_PLASTICITY', [one, young, poisson], poisson, &
         points)
+    call add('hencky', 'MAT_ELASTIC HENCKY', [one, young, poisson], poisson)
 
   contains
 

@@ -79,6 +79,9 @@ contains
     case ('elastic')
       nominal = half*young*(l**3 - l)
       side = sqrt(one - poisson*(l**2 - one))
+    case ('hencky')
+      side = l**(-poisson)
+      nominal = young*log(l)/l
     case ('rubber')
       side = l**(-0.463_wp)
       nominal = shear*(l - l**(-1.926_wp))
