@@ -84,8 +84,9 @@ contains
         'elimination order; AUTO: fewest flops')
     call add_field(table, 'SCHUR', 'W10 =AUTO |AUTO|YES|', 'contact dofs last')
     call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
-    call add_field(table, 'CGTOL', 'R10 fixed')
-    call add_field(table, 'CGMAX', 'I10 fixed')
+    call add_field(table, 'CGTOL', 'R10 =1.0E-12 >0 <=0.001', &
+        'ENGINE CG: residual over right-hand side')
+    call add_field(table, 'CGMAX', 'I10 =1000 >0', 'ENGINE CG: iterations of a solve at most')
     call add_field(table, 'THREADS', 'I10 =1 fixed')
     call add_keyword(table, 'BIPACT_LEDGER', 'energy ledger', required=1, once=.true.)
     call add_card(table)

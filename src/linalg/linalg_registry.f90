@@ -4,6 +4,7 @@
 module linalg_registry
   use base_status, only: status_t, fail, status_deck
   use base_strings, only: join
+  use linalg_cg, only: cg_t
   use linalg_diagonal, only: diagonal_t
   use linalg_ldlt, only: ldlt_t
   use linalg_skyline, only: skyline_t
@@ -50,6 +51,7 @@ contains
     call offer('LDLT', ldlt_t())
     call offer('SKYLINE', skyline_t())
     call offer('SUPERNODAL', supernodal_t())
+    call offer('CG', cg_t())
     call offer(engine_diagonal, diagonal_t(takes_diagonal=.true.))
   contains
     subroutine offer(name, engine)

@@ -26,6 +26,9 @@ module linalg_solver
     !> A pivot below this share of its own diagonal before elimination counts as null: its
     !> unknown is set to zero. 0 = null pivots are an error.
     real(wp) :: null_pivot = 0.0_wp
+    !> Of engines that iterate: where they stop, of the right-hand side, and after how many.
+    real(wp) :: tolerance = 1.0e-12_wp
+    integer :: most_iterations = 1000
   end type solver_options_t
 
   type, public :: solver_info_t
@@ -34,6 +37,8 @@ module linalg_solver
     integer(i8) :: multiplications = 0_i8  !< per factorisation, in node blocks
     integer(i8) :: factor_bytes = 0_i8
     integer :: null_pivots = 0
+    integer(i8) :: iterations = 0_i8       !< of all solves so far, where an engine iterates
+    integer :: unconverged = 0             !< solves since the last factor that did not get there
   end type solver_info_t
 
   type, abstract, public :: solver_t

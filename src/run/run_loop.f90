@@ -284,6 +284,10 @@ contains
     integer, intent(in) :: stage
     type(status_t), intent(inout) :: status
     real(wp) :: total, largest
+    if (run%solver%info%unconverged > 0) call fail(status, status_numerical, &
+        'conjugate gradients have not converged in '// &
+        to_text(run%solver_options%most_iterations)//' iterations (CGMAX of '// &
+        '*BIPACT_SOLVER)', hint='take a shorter step or another ENGINE')
     call sum_squares(run%system%dim, run%system%n, run%x, total, largest)
     if (run%scheme%stage(stage)%moves) run%largest_motion = sqrt(largest)
     if (total <= huge(one)) return

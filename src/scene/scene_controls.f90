@@ -396,6 +396,8 @@ contains
     solver%engine = deck%word(r, 'ENGINE')
     solver%order = deck%word(r, 'ORDER')
     solver%block_limit = deck%integer(r, 'NLAST')
+    solver%tolerance = deck%real(r, 'CGTOL')
+    solver%most_iterations = deck%integer(r, 'CGMAX')
     call check_engine(deck, controls, solver, r)
   end subroutine read_solver_options
 
