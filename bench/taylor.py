@@ -1,50 +1,107 @@
 #!/usr/bin/env python3
-"""Taylor's copper bar against a rigid wall, axisymmetric, explicit, mean dilatation: radius of the
-foot and length of the bar at 80 us with 5, 8 and 12 elements over the radius, and their limits
-by lines in 1/n through the last two. Quarter of an hour of processor time; `taylor.py 3 5` runs
-other meshes. Published: 7.22 to 7.23 mm, 21.41 to 21.43 mm (doc/verification.md)."""
+"""Taylor's copper bar against a rigid wall, mean dilatation: radius of the foot and length of the
+bar at 80 us. Published: 7.22 to 7.23 mm, 21.41 to 21.43 mm (doc/verification.md).
 
+taylor.py [N ...]: explicit around the axis with N = 5, 8 and 12 elements over the radius, and the
+limit by lines in 1/n through the last two; a quarter of an hour of processor time.
+taylor.py --implicit STEPS ...: THETA 1/2, EMC, 5 x 25 elements, against the explicit run of the
+same mesh: differences, what the scheme took of the energy, how well the energy balances.
+taylor.py --space N: a quarter in space with N elements over the radius, explicit, against the
+limit; a quarter of an hour with five."""
+
+import argparse
 import os
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common
+import numpy as np
 
 sys.path.insert(0, os.path.join(common.ROOT, "tests", "support"))
-import rings
 import tables
+import taylor
 
-STEPS = 2705    # per element over the radius: the smallest elements stay stable to the end
-
-
-def measure(n, folder):
-    """Radius of the foot, length along the axis [mm], processor seconds."""
-    deck = os.path.join(folder, "taylor.k")
-    with open(deck, "w") as out:
-        out.write(rings.taylor_bar(n, STEPS * n)[1])
-    done = common.run(deck, os.path.join(folder, "out"))
-    if done["code"] != 0:
-        raise SystemExit(done["errors"])
-    rows = tables.read_run(os.path.join(folder, "out"), "nodout")
-    last = rows["time"] == rows["time"].max()
-    return rows["x"][last][0], rows["y"][last][1], done["cpu"]
+# Per element over the radius: the smallest elements stay stable to the end.
+STEPS, STEPS_IN_SPACE = 2705, 3400
+LIMIT = 7.23, 21.415
 
 
-def main():
-    sizes = [int(a) for a in sys.argv[1:]] or [5, 8, 12]
+def measure(text, axis="y"):
+    """Radius of the foot, length along the axis [mm], processor seconds, what the scheme took and
+    what is left of the balance, of the first energy, and the steps."""
+    with tempfile.TemporaryDirectory() as folder:
+        deck, out = os.path.join(folder, "taylor.k"), os.path.join(folder, "out")
+        with open(deck, "w") as file:
+            file.write(text)
+        done = common.run(deck, out)
+        if done["code"] != 0:
+            raise SystemExit(done["errors"])
+        nodes, rows = tables.read_run(out, "nodout"), tables.read_run(out, "glstat")
+    last = nodes["time"] == nodes["time"].max()
+    start = rows["kinetic"][0]
+    found = rows["kinetic"] + rows["internal"] + rows["plastic"] + rows["algorithmic"]
+    return {
+        "radius": nodes["x"][last][0],
+        "length": nodes[axis][last][-1],
+        "cpu": done["cpu"],
+        "taken": rows["algorithmic"][-1] / start,
+        "open": np.abs(found - start).max() / start,
+        "steps": rows["cycle"][-1],
+    }
+
+
+def refine(sizes):
+    """Explicit, around the axis."""
     print("elements  radius  length   CPU s")
     found = {}
-    with tempfile.TemporaryDirectory() as folder:
-        for n in sizes:
-            radius, length, cpu = measure(n, folder)
-            found[n] = radius, length
-            print("%2d x %-3d  %7.4f  %7.4f  %6.0f" % (n, 5 * n, radius, length, cpu), flush=True)
+    for n in sizes:
+        got = measure(taylor.ring_bar(n, STEPS * n))
+        found[n] = got["radius"], got["length"]
+        print("%2d x %-3d  %7.4f  %7.4f  %6.0f" % (n, 5 * n, *found[n], got["cpu"]), flush=True)
     if len(sizes) < 2:
         return
     a, b = sizes[-2:]
     limit = [(b * y - a * x) / (b - a) for x, y in zip(found[a], found[b])]
     print("limit     %7.4f  %7.4f" % tuple(limit))
+
+
+def halve(counts, n=5):
+    """Implicit runs against the explicit one of the same mesh."""
+    print("  asked    done  radius  length   d radius  d length  algorithmic  balance   CPU s")
+    best = measure(taylor.ring_bar(n, STEPS * n))
+    form = "%7s %7d  %7.4f  %7.4f  %9.5f %9.5f  %11.1e  %7.1e  %6.1f"
+    for steps in [0] + counts:
+        got = measure(taylor.ring_bar(n, steps, implicit=True)) if steps else best
+        off = got["radius"] - best["radius"], got["length"] - best["length"]
+        numbers = [got[k] for k in ("radius", "length")] + [*off]
+        numbers += [got[k] for k in ("taken", "open", "cpu")]
+        print(form % (steps or "explicit", got["steps"], *numbers), flush=True)
+
+
+def in_space(n):
+    """A quarter, explicit."""
+    got = measure(taylor.space_bar(n, STEPS_IN_SPACE * n), "z")
+    off = got["radius"] - LIMIT[0], got["length"] - LIMIT[1]
+    print("%d over the radius, %d steps, %.0f s" % (n, got["steps"], got["cpu"]))
+    print("radius %.4f, length %.4f mm" % (got["radius"], got["length"]))
+    print("less the limit: %.4f, %.4f mm; balance %.1e" % (*off, got["open"]))
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("sizes", nargs="*", type=int, metavar="N", help="elements, explicit")
+    parser.add_argument("--implicit", nargs="+", type=int, metavar="STEPS")
+    parser.add_argument("--space", type=int, metavar="N")
+    options = parser.parse_args()
+    if options.implicit:
+        halve(options.implicit)
+    elif options.space:
+        in_space(options.space)
+    else:
+        refine(options.sizes or [5, 8, 12])
 
 
 if __name__ == "__main__":
