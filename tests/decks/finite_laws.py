@@ -343,11 +343,12 @@ def thrown_plastic(force, beta, etan, h):
 
 
 def finite_plastic():
-    """A plastic block thrown at a wall: what kinetic energy loses is strain energy, plastic work, the
-    loss of contact and what the scheme takes, each by its own formula. EMC takes nothing, to where
-    Newton's method stops. What MIDPOINT takes is of second order of a step, of first in a run: as
-    the step halves it falls by 2 where waves of yielding are resolved, by 1.6 at least from 55
-    steps a transit on. Laws without hardening and with either kind and both."""
+    """A plastic block thrown at a wall: what kinetic energy loses is strain energy, plastic
+    work, the loss of contact and what the scheme takes, each by its own formula. EMC takes
+    nothing, to where Newton's method stops. What MIDPOINT takes is of second order of a step,
+    of first in a run: as the step halves it falls by 2 where waves of yielding are resolved, by
+    1.6 at least from 55 steps a transit on. Laws without hardening and with either kind and
+    both."""
     for beta, etan in ((1.0, 5.0), (0.0, 5.0), (0.5, 5.0), (1.0, 0.0)):
         for h in (2.0e-4, 1.0e-4, 5.0e-5):
             label, rows = thrown_plastic("", beta, etan, h)

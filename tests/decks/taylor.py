@@ -1,5 +1,5 @@
-"""Taylor's bar: around the axis explicit and implicit, and a quarter in space. Every bound has its
-reason beside it."""
+"""Taylor's bar: around the axis explicit and implicit, and a quarter in space. Every bound has
+its reason beside it."""
 
 import os
 import sys
@@ -29,8 +29,8 @@ def run(text, what, axis="y"):
 def axis_taylor():
     """Three elements over the radius, as measured when finer meshes were seen to converge
     (bench/taylor.py): 6.939 and 21.588 mm, to .005, for round-off grows over 8200 steps; its
-    balance is of round-off, 1e-11 of so many steps. Without mean dilatation the foot locks, as the
-    program says: less than 5.5 mm, 4.6 with five elements."""
+    balance is of round-off, 1e-11 of so many steps. Without mean dilatation the foot locks, as
+    the program says: less than 5.5 mm, 4.6 with five elements."""
     radius, length, rows, errors = run(ring_bar(3, 8200), "explicit")
     within(radius, 6.934, 6.944, "explicit: radius of the foot")
     within(length, 21.583, 21.593, "explicit: length")
@@ -44,11 +44,11 @@ def axis_taylor():
 
 
 def axis_taylor_implicit():
-    """THETA 1/2, EMC, against the explicit run of the same mesh. The return to the yield surface is
-    of first order in the step: radii 4/steps mm from the explicit one at most, 2.9/steps measured
-    from 200 to 800 steps, and nearer by 1.6 with half the step. The length is nearer than that,
-    2/steps, but ends in a vibration of a few thousandths of a millimetre. EMC takes no energy, and
-    loses none to the scheme: 1e-10, where Newton's method stops."""
+    """THETA 1/2, EMC, against the explicit run of the same mesh. The return to the yield
+    surface is of first order in the step: radii 4/steps mm from the explicit one at most,
+    2.9/steps measured from 200 to 800 steps, and nearer by 1.6 with half the step. The length
+    is nearer than that, 2/steps, but ends in a vibration of a few thousandths of a millimetre.
+    EMC takes no energy, and loses none to the scheme: 1e-10, where Newton's method stops."""
     want, long, _, _ = run(ring_bar(3, 8200), "explicit")
     last = np.inf
     for steps in (200, 400):
@@ -63,9 +63,10 @@ def axis_taylor_implicit():
 
 
 def space_taylor():
-    """A quarter in space, two elements over the radius. The bar around the axis with as many ends .44
-    and .34 mm from the limit of fine meshes; here a third more is allowed, for the section is an
-    octagon, of a tenth less area. The balance is of round-off, 1e-11 of 6800 steps."""
+    """A quarter in space, two elements over the radius. The bar around the axis with as many
+    ends .44 and .34 mm from the limit of fine meshes; here a third more is allowed, for the
+    section is an octagon, of a tenth less area. The balance is of round-off, 1e-11 of 6800
+    steps."""
     radius, length, rows, _ = run(space_bar(2, 6800), "space", axis="z")
     at_most(np.abs(rows["residual"]).max(), 1.0e-11, "space: balance")
     at_most(abs(radius - LIMIT[0]), 4.0 / 3.0 * 0.44, "space: radius of the foot")

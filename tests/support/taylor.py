@@ -1,6 +1,6 @@
-"""Taylor's copper bar of 3.2 x 32.4 mm at 227 m/s onto a rigid wall (mm, s, N, MPa): the nodes of
-the impact face stay on the wall from the start, frictionless. Decks around the axis, explicit and
-implicit, and of a quarter in space."""
+"""Taylor's copper bar of 3.2 x 32.4 mm at 227 m/s onto a rigid wall (mm, s, N, MPa): the nodes
+of the impact face stay on the wall from the start, frictionless. Decks around the axis,
+explicit and implicit, and of a quarter in space."""
 
 import numpy as np
 import rings
@@ -36,9 +36,9 @@ def ring_bar(n, steps, implicit=False):
 
 
 def quarter(n, radius):
-    """A quarter of a disc with n quadrilaterals over the radius: a core of about half of them each
-    way, whose edge is straight, and layers from it to the rim. Returns x (*, 2) and elements.
-    """
+    """A quarter of a disc with n quadrilaterals over the radius: a core of about half of them
+    each way, whose edge is straight, and layers from it to the rim. Returns x (*, 2) and
+    elements."""
     core = (n + 1) // 2
     a, pull = radius * core / n, 0.2
     number, x, elements = {}, [], []
