@@ -7,8 +7,7 @@ the limit by lines in 1/n through the last two; a quarter of an hour of processo
 taylor.py --implicit STEPS ...: THETA 1/2, EMC, 5 x 25 elements, against the explicit run of the
 same mesh: differences (of the length also the mean over the last 15 us, for at the end the bar
 vibrates by .01 mm), what the scheme took of the energy, how well the energy balances.
-taylor.py --space N: a quarter in space with N elements over the radius, explicit, against the
-limit; a quarter of an hour with five."""
+taylor.py --space N ...: the same of a quarter in space; six minutes with five elements."""
 
 import argparse
 import os
@@ -21,11 +20,10 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(common.ROOT, "tests", "support"))
 import tables
-import taylor
+import taylor_bars
 
 # Per element over the radius: the smallest elements stay stable to the end.
 STEPS, STEPS_IN_SPACE = 2705, 3400
-LIMIT = 7.23, 21.415
 
 
 def measure(text, axis="y"):
@@ -53,42 +51,37 @@ def measure(text, axis="y"):
     }
 
 
-def refine(sizes):
-    """Explicit, around the axis."""
-    print("elements  radius  length   CPU s")
+def refine(sizes, in_space=False):
+    """Explicit runs and the limit by lines in 1/n through the last two."""
+    print("over radius   steps  radius  length  balance   CPU s")
     found = {}
     for n in sizes:
-        got = measure(taylor.ring_bar(n, STEPS * n))
+        if in_space:
+            got = measure(taylor_bars.space_bar(n, STEPS_IN_SPACE * n), "z")
+        else:
+            got = measure(taylor_bars.ring_bar(n, STEPS * n))
         found[n] = got["radius"], got["length"]
-        print("%2d x %-3d  %7.4f  %7.4f  %6.0f" % (n, 5 * n, *found[n], got["cpu"]), flush=True)
+        numbers = (n, got["steps"], *found[n], got["open"], got["cpu"])
+        print("%11d %7d %7.4f %7.4f %8.1e %7.0f" % numbers, flush=True)
     if len(sizes) < 2:
         return
     a, b = sizes[-2:]
     limit = [(b * y - a * x) / (b - a) for x, y in zip(found[a], found[b])]
-    print("limit     %7.4f  %7.4f" % tuple(limit))
+    print("limit               %7.4f %7.4f" % tuple(limit))
 
 
 def halve(counts, n=5):
     """Implicit runs; the later columns of radius and length are less the explicit run's."""
     heads = "asked done radius length radius length mean algorithmic balance CPU".split()
     print("%8s %7s %8s %8s %9s %9s %9s %12s %8s %7s" % tuple(heads))
-    best = measure(taylor.ring_bar(n, STEPS * n))
+    best = measure(taylor_bars.ring_bar(n, STEPS * n))
     form = "%8s %7d %8.4f %8.4f %9.5f %9.5f %9.5f %12.1e %8.1e %7.1f"
     for steps in [0] + counts:
-        got = measure(taylor.ring_bar(n, steps, implicit=True)) if steps else best
+        got = measure(taylor_bars.ring_bar(n, steps, implicit=True)) if steps else best
         off = [got[k] - best[k] for k in ("radius", "length", "mean")]
         numbers = [got[k] for k in ("radius", "length")] + off
         numbers += [got[k] for k in ("taken", "open", "cpu")]
         print(form % (steps or "explicit", got["steps"], *numbers), flush=True)
-
-
-def in_space(n):
-    """A quarter, explicit."""
-    got = measure(taylor.space_bar(n, STEPS_IN_SPACE * n), "z")
-    off = got["radius"] - LIMIT[0], got["length"] - LIMIT[1]
-    print("%d over the radius, %d steps, %.0f s" % (n, got["steps"], got["cpu"]))
-    print("radius %.4f, length %.4f mm" % (got["radius"], got["length"]))
-    print("less the limit: %.4f, %.4f mm; balance %.1e" % (*off, got["open"]))
 
 
 def main():
@@ -97,12 +90,12 @@ def main():
     )
     parser.add_argument("sizes", nargs="*", type=int, metavar="N", help="elements, explicit")
     parser.add_argument("--implicit", nargs="+", type=int, metavar="STEPS")
-    parser.add_argument("--space", type=int, metavar="N")
+    parser.add_argument("--space", nargs="+", type=int, metavar="N")
     options = parser.parse_args()
     if options.implicit:
         halve(options.implicit)
     elif options.space:
-        in_space(options.space)
+        refine(options.space, in_space=True)
     else:
         refine(options.sizes or [5, 8, 12])
 

@@ -7,7 +7,7 @@ import sys
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
 from scenes import at_most, check, finish, run_text, table, within
-from taylor import ring_bar, space_bar
+from taylor_bars import ring_bar, space_bar
 
 LIMIT = 7.23, 21.415  # radius and length of fine meshes [mm]
 
