@@ -29,7 +29,7 @@ module linalg_cg
     real(wp), allocatable :: reaction(:, :)  !< (d, m) on the block, of backward [F]
     !> (d, n) each: solution of forward, right-hand side, and what an iteration needs
     real(wp), allocatable :: x(:, :), b(:, :), r(:, :), z(:, :), p(:, :), q(:, :)
-    real(wp) :: scale = 0.0_wp               !< of b, in which residuals are measured
+    real(wp) :: square_scale = 0.0_wp        !< b' M^-1 b, in which r' M^-1 r is measured
   contains
     procedure :: analyse => cg_analyse
     procedure :: factor => cg_factor
@@ -152,22 +152,22 @@ contains
     do k = 1, this%n_interface
       this%b(:, this%last(k)) = this%b(:, this%last(k)) + this%reaction(:, k)
     end do
-    call iterate(this, this%scale)
+    call iterate(this, this%square_scale)
     x = this%x
     do k = 1, this%n_interface
       x(:, this%last(k)) = x_interface(:, k)
     end do
   end subroutine cg_backward
 
-  !> Conjugate gradients from x on: until sqrt(r' M^-1 r) is CGTOL of that of b, or of `scale`
-  !> where that is more; counted where CGMAX iterations do not reach it.
-  subroutine iterate(this, scale)
+  !> Conjugate gradients from x on: until sqrt(r' M^-1 r) is CGTOL of that of b, or of the root
+  !> of square_scale where that is more; counted where CGMAX iterations do not reach it.
+  subroutine iterate(this, square_scale)
     type(cg_t), intent(inout) :: this
-    real(wp), intent(in) :: scale
+    real(wp), intent(in) :: square_scale
     real(wp) :: product, last, alpha
     integer :: k
     call apply_incomplete(this%incomplete, this%b, this%z)
-    this%scale = max(scale, sqrt(dot(this%b, this%z)))
+    this%square_scale = max(square_scale, dot(this%b, this%z))
     call multiply(this%graph, this%matrix, this%x, this%q)
     this%r = this%b - this%q
     product = zero
@@ -175,7 +175,7 @@ contains
       last = product
       call apply_incomplete(this%incomplete, this%r, this%z)
       product = dot(this%r, this%z)
-      if (.not. sqrt(product) > this%options%tolerance*this%scale) return
+      if (.not. product > this%options%tolerance**2*this%square_scale) return
       if (k == 0) then
         this%p = this%z
       else

@@ -114,33 +114,35 @@ contains
     end do
   end subroutine eliminate
 
-  !> Inverse of a pivot block by its Cholesky factor; lost = 1 where it is not positive definite.
+  !> Inverse of a pivot block by its factor C E C', without roots, so that other units by a power
+  !> of two change no digit; lost = 1 where it is not positive definite.
   pure subroutine invert(d, a, inverse, lost)
     integer, intent(in) :: d
     real(wp), intent(in) :: a(d, d)
     real(wp), intent(out) :: inverse(d, d)
     integer, intent(out) :: lost
-    real(wp) :: c(d, d), x(d)
+    real(wp), parameter :: least = 1.0e-12_wp    ! share of the entry that a pivot keeps
+    real(wp) :: c(d, d), e(d), x(d)
     integer :: i, j
     lost = 1
     inverse = zero
     c = zero
     do j = 1, d
-      c(j, j) = a(j, j) - dot_product(c(j, :j - 1), c(j, :j - 1))
-      if (.not. (c(j, j) > 1.0e-12_wp*a(j, j) .and. c(j, j) <= huge(one))) return
-      c(j, j) = sqrt(c(j, j))
+      e(j) = a(j, j) - sum(c(j, :j - 1)**2*e(:j - 1))
+      if (.not. (e(j) > least*a(j, j) .and. e(j) <= huge(one))) return
       do i = j + 1, d
-        c(i, j) = (a(i, j) - dot_product(c(i, :j - 1), c(j, :j - 1)))/c(j, j)
+        c(i, j) = (a(i, j) - sum(c(i, :j - 1)*c(j, :j - 1)*e(:j - 1)))/e(j)
       end do
     end do
     do j = 1, d
       x = zero
       x(j) = one
-      do i = j, d
-        x(i) = (x(i) - dot_product(c(i, :i - 1), x(:i - 1)))/c(i, i)
+      do i = j + 1, d
+        x(i) = -dot_product(c(i, :i - 1), x(:i - 1))
       end do
-      do i = d, 1, -1
-        x(i) = (x(i) - dot_product(c(i + 1:, i), x(i + 1:)))/c(i, i)
+      x = x/e
+      do i = d - 1, 1, -1
+        x(i) = x(i) - dot_product(c(i + 1:, i), x(i + 1:))
       end do
       inverse(:, j) = x
     end do

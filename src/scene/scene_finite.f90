@@ -6,6 +6,7 @@ module scene_finite
   use base_strings, only: to_text
   use deck_data, only: deck_t
   use deck_problems, only: add_warning, add_note
+  use material_base, only: plane_stress
   use model_data, only: model_t, controls_t
   use solid_block, only: force_ends, force_middle, force_conserving
   implicit none
@@ -154,27 +155,46 @@ contains
   subroutine check_elements(deck, model)
     type(deck_t), intent(inout) :: deck
     type(model_t), intent(in) :: model
-    logical :: locks(size(model%part)), is_refused(size(model%part))
+    logical, dimension(size(model%part)) :: locks, is_full, is_refused
     integer :: e, p
     if (.not. model%controls%is_finite) return
     locks = .false.
+    is_full = .false.
     is_refused = .false.
     do e = 1, model%mesh%n
       p = model%mesh%part(e)
       if (any([model%mesh%is_of_type(e, 'TRI3'), model%mesh%is_of_type(e, 'TRI3AX'), &
           model%mesh%is_of_type(e, 'TET4')])) &
           locks(p) = model%material(model%part(p)%material)%item%mean_dilatation
+      is_full(p) = is_full(p) .or. flows_in_full(model, e)
       if (model%mesh%is_of_type(e, 'HEX8MODE')) is_refused(p) = .true.
     end do
     do p = 1, size(model%part)
       if (locks(p)) call add_warning(deck%problems, 'locking', 'part '// &
           to_text(model%part(p)%id)//' locks: constant strain and a law that keeps the '// &
           'volume; take quadrilaterals or hexahedra, which have mean dilatation')
+      if (is_full(p)) call add_warning(deck%problems, 'locking', 'part '// &
+          to_text(model%part(p)%id)//' locks: its plastic flow keeps the volume and QP0 0 '// &
+          'takes mean dilatation away; leave QP0 of *BIPACT_KINEMATICS blank')
       if (is_refused(p)) call deck%complain(model%part(p)%record, 'SECID', 'part '// &
           to_text(model%part(p)%id)//': hexahedra with incompatible modes are not '// &
           'available at finite deformation', 'under compression such modes grow without '// &
           'strain; take ELFORM 1, or 2 for mean dilatation')
     end do
   end subroutine check_elements
+
+  !> Does a bilinear element of a plastic law lack mean dilatation? Plane stress needs none.
+  pure logical function flows_in_full(model, e)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: e
+    flows_in_full = .false.
+    if (model%controls%mean_dilatation /= 0) return
+    associate (part => model%part(model%mesh%part(e)))
+      if (part%plane == plane_stress) return
+      if (model%material(part%material)%item%work_state == 0) return
+    end associate
+    flows_in_full = any([model%mesh%is_of_type(e, 'QUAD4'), &
+        model%mesh%is_of_type(e, 'QUAD4AX'), model%mesh%is_of_type(e, 'HEX8')])
+  end function flows_in_full
 
 end module scene_finite

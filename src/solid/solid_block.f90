@@ -5,8 +5,8 @@
 !>   ends        before f(U0) + now f(U1);
 !>   middle      f((U0 + U1)/2);
 !>   conserving  sum w F_m S* dN/dX with F_m of the mean displacement and one quotient an
-!>               element in S*, whose work is the change of the energy exactly (Simo & Tarnow
-!>               1992; Gonzalez 2000).
+!>               element in S*, whose work is the change of the energy, and the plastic work,
+!>               exactly (Simo & Tarnow 1992; Gonzalez 2000).
 module solid_block
   use base_kinds, only: wp, zero, one, half
   use element_base, only: element_t, most_points, most_nodes, circumference
@@ -231,7 +231,8 @@ contains
   !> H of the mean displacement and S* at the points, moduli at the mean strain where asked for.
   !> S* = S(E_m) + q (E1 - E0), q = [W1 - W0 - sum w S(E_m):(E1 - E0)] / sum w |E1 - E0|^2;
   !> where the strain hardly changes q is left out: its numerator, of third order, is round-off
-  !> there. A law with history has S* = S(E1): the step ends on its yield surface.
+  !> there. With plasticity W1 - W0 has the plastic work of the step besides, and S(E_m) is
+  !> that of the law from the history at the start (Meng & Laursen 2002).
   pure subroutine conserving_stresses(solid, k, a, x, with_moduli, h, s, d, coupling)
     type(solid_t), intent(in) :: solid
     integer, intent(in) :: k
@@ -243,6 +244,7 @@ contains
     real(wp), dimension(solid%strains, solid%points) :: e0, e1, s_end
     real(wp) :: h1(3, 3), end(3, most_nodes), energy, change, work, length
     real(wp) :: no_moduli(solid%strains, solid%strains, solid%points)
+    real(wp) :: new(solid%material%states, solid%points)
     integer :: g
     end(:solid%dim, :solid%nodes) = a + x
     do g = 1, solid%points
@@ -253,10 +255,6 @@ contains
       call green_strain(h1(:solid%dim, :solid%columns), e1(:, g))
       h(:, :, g) = half*(h(:, :, g) + h1(:solid%dim, :solid%columns))
     end do
-    if (solid%material%states > 0) then
-      call respond(solid, k, e1, with_moduli, s, d, energy, coupling)
-      return
-    end if
     call respond(solid, k, half*(e0 + e1), with_moduli, s, d, energy, coupling)
     if (has_quadratic_energy(solid)) return
     length = zero
@@ -268,12 +266,23 @@ contains
       end associate
     end do
     if (.not. length > least*sum(solid%weight(:, k))) return
-    call respond(solid, k, e1, .false., s_end, no_moduli, energy)
+    call respond(solid, k, e1, .false., s_end, no_moduli, energy, new=new)
+    if (solid%material%work_state > 0) energy = energy + plastic_growth(solid, k, new)
     change = (energy - solid%energy(k) - work)/length
     do g = 1, solid%points
       s(:, g) = s(:, g) + change*tensor_of(e1(:, g) - e0(:, g), solid)
     end do
   end subroutine conserving_stresses
+
+  !> Plastic work of element k from the history at the start of the step to a new one [F L].
+  pure real(wp) function plastic_growth(solid, k, new)
+    type(solid_t), intent(in) :: solid
+    integer, intent(in) :: k
+    real(wp), intent(in) :: new(:, :)
+    associate (row => solid%material%work_state)
+      plastic_growth = dot_product(solid%weight(:, k), new(row, :) - solid%history(row, :, k))
+    end associate
+  end function plastic_growth
 
   !> Is the energy of an element a quadratic form of its strains? The quotient is then zero.
   pure logical function has_quadratic_energy(solid)
@@ -324,16 +333,14 @@ contains
     do g = 1, solid%points
       associate (w => factor*solid%weight(g, k), slope => solid%slope(:, :, g, k))
         call strain_matrix(h(:, :, g), slope, b)
-        call add_material_part(merge(solid%weight(g, k), w, stress_of_end(solid, rule)), &
-            d(:, :, g), b, ke)
+        call add_material_part(w, d(:, :, g), b, ke)
         call add_geometric_part(rule%geometric*w, s(:, g), slope, ke)
       end associate
       if (.not. solid%is_mean) cycle
       to_g = to_g + matmul(coupling%g(:solid%strains, g), b)
       to_b = to_b + matmul(coupling%b(:solid%strains, g), b)
     end do
-    if (solid%is_mean) call add_coupling(merge(one, factor, stress_of_end(solid, rule)), &
-        coupling%z, to_g, to_b, ke)
+    if (solid%is_mean) call add_coupling(factor, coupling%z, to_g, to_b, ke)
   end subroutine element_tangent
 
   !> ke = ke + factor (b g' + g b' + z g g').
@@ -345,14 +352,6 @@ contains
       ke(:, j) = ke(:, j) + factor*((b(j) + z*g(j))*g + g(j)*b)
     end do
   end subroutine add_coupling
-
-  !> Is the stress of the conserving force that of the end of the step? It then changes with x
-  !> wholly, not by half.
-  pure logical function stress_of_end(solid, rule)
-    type(solid_t), intent(in) :: solid
-    type(force_rule_t), intent(in) :: rule
-    stress_of_end = rule%kind == force_conserving .and. solid%material%states > 0
-  end function stress_of_end
 
   !> Strain energy of element k at displacements u (dim, *) [F L].
   pure real(wp) function element_energy(solid, k, u) result(energy)

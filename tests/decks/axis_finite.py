@@ -1,14 +1,13 @@
 """Decks around an axis at finite deformation: a block that bounces, a stretched rod, a blown-up
-tube, the Taylor bar. Every bound has its reason beside it."""
+tube. Every bound has its reason beside it."""
 
 import os
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
-from rings import (Mesh, curve, deck, elastic, flight, mesh_cards, node_set, part_cards,
-                   taylor_bar)
-from scenes import at_most, check, finish, run_text, show, table, within
+from rings import Mesh, curve, deck, elastic, flight, mesh_cards, node_set, part_cards
+from scenes import at_most, check, finish, run_text, show, table
 
 FOAM = ["*MAT_BLATZ-KO_FOAM", "1,1.0e-3,100.0"]
 MOONEY = ["*MAT_MOONEY-RIVLIN_RUBBER", "1,1.0e-3,0.495,40.0,10.0"]
@@ -113,22 +112,6 @@ def axis_blown_tube():
     show("errors of the pressure %s" % errors)
     for k, error in enumerate(errors):
         at_most(error, 1.0e-3 / 4**k + 5.0e-5, "%d elements: pressure" % (4 * 2**k))
-
-
-def axis_taylor():
-    """The Taylor bar with three elements over the radius, as measured when finer meshes were seen
-    to converge (bench/taylor.py): 6.939 and 21.588 mm, to .005, for round-off grows over 8200
-    steps. Without mean dilatation the foot locks: less than 5.5 mm (finite.md: 4.6 with five
-    elements)."""
-    for mean, low, high in (("", 6.934, 6.944), ("*BIPACT_KINEMATICS\n,,0\n", 3.2, 5.5)):
-        mesh, text = taylor_bar(3, 8200)
-        folder = run("taylor", text.replace("*NODE\n", mean + "*NODE\n"))
-        rows = table(folder, "nodout")
-        last = rows["time"] == rows["time"].max()
-        what = "without mean dilatation: " if mean else ""
-        within(rows["x"][last][0], low, high, what + "radius of the foot")
-        if not mean:
-            within(rows["y"][last][1], 21.583, 21.593, "length")
 
 
 if __name__ == "__main__":

@@ -123,16 +123,3 @@ def deck(lines, dt, tend, scheme="THETA,0.5,0.5", mass="CONSISTENT,0", tables=("
     for name in tables:
         out += ["*DATABASE_" + name, "%r," % (every or dt)]
     return "\n".join(out + ["*END", ""])
-
-
-def taylor_bar(n, steps):
-    """Taylor's copper bar of 3.2 x 32.4 mm at 227 m/s (mm, s, N, MPa), n x 5 n elements: the nodes
-    of the impact face stay on the wall. Returns its mesh and its deck, explicit."""
-    mesh = Mesh((n, 5 * n), (0.0, 3.2), (0.0, 32.4))
-    lines = mesh_cards(mesh) + part_cards()
-    lines += ["*MAT_PLASTIC_KINEMATIC", "1,8.93e-9,117.0e3,0.35,400.0,99.9146,1.0"]
-    lines += node_set(1, range(len(mesh.x))) + flight(vy=-227.0e3)
-    lines += node_set(2, mesh.bottom()) + ["*BOUNDARY_SPC_SET", "2,,,1"]
-    lines += ["*DATABASE_HISTORY_NODE", "%d,%d," % (mesh.row(n, 0) + 1, mesh.row(0, 5 * n) + 1)]
-    return mesh, deck(lines, 80.0e-6 / steps, 80.0e-6, scheme="PAOLI,,,,,,0.0", mass="LUMPED,0",
-                      tables=("GLSTAT", "NODOUT"), every=1.0e-6, finite=True)

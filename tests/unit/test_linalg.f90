@@ -152,7 +152,8 @@ contains
     real(wp) :: unit(d, graph%n)
     integer :: k, i
     name = engine//' '//order//', d = '//to_text(d)//','
-    call make_solver(solver_options_t(engine=engine, order=order), solver, status)
+    call make_solver(solver_options_t(engine=engine, order=order, tolerance=1.0e-15_wp), &
+        solver, status)
     call solver%analyse(graph, d, last, status)
     call solver%factor(graph, matrix, status)
     call check_true(.not. failed(status), name//' factors')

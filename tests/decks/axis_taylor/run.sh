@@ -1,3 +1,3 @@
 #!/usr/bin/env bash
-# axis_taylor in axis_finite.py says what must hold and why the bounds are what they are.
-exec "$PYTHON" "$ROOT/tests/decks/axis_finite.py" axis_taylor
+# axis_taylor in taylor.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/taylor.py" axis_taylor

@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# space_taylor in taylor.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/taylor.py" space_taylor
