@@ -3,7 +3,7 @@
 !> has another beside it, and they change places by their addresses.
 module run_operator
   use assembly_system, only: effective_matrix, diagonal_matrix
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
   use base_status, only: status_t, failed
   use base_strings, only: to_text
@@ -193,8 +193,8 @@ contains
   end subroutine factor_stage
 
   !> Order and storage of the factor. Where the deck leaves the engine open and the work is that
-  !> of a large body in space, dense panels take half the time (doc/performance.md); they do not
-  !> know null pivots.
+  !> of a large body, dense panels take half the time in space (doc/performance.md), and no
+  !> factor at all less yet where it would be a new one in each step; neither knows null pivots.
   subroutine analyse_matrix(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
@@ -203,12 +203,54 @@ contains
     call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
     options = run%solver_options
     if (failed(status) .or. options%engine /= 'AUTO' .or. run%solver%takes_diagonal .or. &
-        options%null_pivot > zero .or. run%solver%info%engine == 'SUPERNODAL') return
-    if (run%system%dim == 2 .or. work_of(run%solver) < much_work) return
-    options%engine = 'SUPERNODAL'
+        options%null_pivot > zero .or. run%solver%info%engine /= 'LDLT') return
+    if (work_of(run%solver) < much_work) return
+    if (suits_iteration(run)) then
+      options%engine = 'CG'
+    else if (run%system%dim == 3) then
+      options%engine = 'SUPERNODAL'
+    else
+      return
+    end if
     call make_solver(options, run%solver, status)
     call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
   end subroutine analyse_matrix
+
+  !> Is a factor in each step dearer than conjugate gradients with a solve for each contact dof?
+  !> Where the mass makes a good part of the diagonal (steps of three crossing times of an
+  !> element or less) these take a dozen iterations, whatever the mesh. Rates in Gflop/s are
+  !> those of one core with the reference BLAS (doc/performance.md).
+  logical function suits_iteration(run)
+    type(run_t), intent(in) :: run
+    real(wp), parameter :: least_share = 0.05_wp, rate_factor = 2.5_wp, rate_iteration = 0.8_wp
+    real(wp), parameter :: passes = 5.0_wp, iterations = 12.0_wp, clear = 0.7_wp
+    real(wp) :: direct, each
+    suits_iteration = .false.
+    if (.not. allocated(run%newton) .or. run%step%is_static .or. allocated(run%shift) .or. &
+        .not. allocated(run%matrix%value)) return
+    if (mass_share(run) < least_share) return
+    associate (info => run%solver%info, d => run%system%dim)
+      direct = (work_of(run%solver) + passes*0.5e-9_wp*info%factor_bytes)/rate_factor
+      each = iterations*8.0e-9_wp*d**2*size(run%system%graph%column)/rate_iteration
+      suits_iteration = (d*size(kept_nodes(run)) + 2.0_wp*passes)*each < clear*direct
+    end associate
+  end function suits_iteration
+
+  !> The least share that the mass has of a diagonal entry of the matrix; 1 where dofs are held.
+  real(wp) function mass_share(run)
+    type(run_t), intent(in) :: run
+    integer :: i, c, at
+    mass_share = one
+    associate (g => run%system%graph, c_m => run%scheme%stage(1)%c_m)
+      do i = 1, run%system%n
+        at = g%position(i, i)
+        do c = 1, run%system%dim
+          if (run%model%fixed(c, i)) cycle
+          mass_share = min(mass_share, c_m*run%system%mass(at)/run%matrix%value(c, c, at))
+        end do
+      end do
+    end associate
+  end function mass_share
 
   !> The nodes that come last in the elimination.
   pure function kept_nodes(run) result(list)
