@@ -97,11 +97,11 @@ bench-fclib: ## all contact solvers over FCLIB=dir of problems; SOLVERS=AUTO,GS,
 	@.venv/bin/python bench/contact_problems.py $(or $(FCLIB),../shared/fclib) \
 	  $(if $(SOLVERS),--solvers $(SOLVERS)) $(if $(SICONOS),--siconos $(SICONOS)) $(if $(OUT),--out $(OUT))
 
-report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: part of it; PEERS=1; STATIC=1; SPACE=1
+report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: part of it; PEERS=1; STATIC=1; SPACE=1; FINITE=1
 	+@$(again) venv
 	+@$(again) all
 	@.venv/bin/python bench/report.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) \
-	  $(if $(PEERS),--peers) $(if $(STATIC),--static) $(if $(SPACE),--space) $(if $(FRESH),--fresh)
+	  $(if $(PEERS),--peers) $(if $(STATIC),--static) $(if $(SPACE),--space) $(if $(FINITE),--finite) $(if $(FRESH),--fresh)
 
 stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build; REDUCED=1
 	+@$(again) venv
