@@ -103,10 +103,11 @@ report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: 
 	@.venv/bin/python bench/report.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) \
 	  $(if $(PEERS),--peers) $(if $(STATIC),--static) $(if $(SPACE),--space) $(if $(FINITE),--finite) $(if $(FRESH),--fresh)
 
-stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build; REDUCED=1
+stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build; REDUCED=1; ONLY=word of axes
 	+@$(again) venv
 	+@$(again) all
-	@.venv/bin/python bench/stability.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) $(if $(FRESH),--fresh)
+	@.venv/bin/python bench/stability.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) \
+	  $(if $(ONLY),--only "$(ONLY)") $(if $(FRESH),--fresh)
 
 debug sanitize: ## build bin/bipact-debug or bin/bipact-sanitize
 	+@$(again) FLAVOUR=$@ all
