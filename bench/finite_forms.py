@@ -1,6 +1,6 @@
-"""Forces of a step and schemes at finite deformation: error against run time on a bar whose impact is
-known and on the rubber disc that bounces off a floor. Part of make report: finite.md, finite.csv,
-finite.png."""
+"""Forces of a step and schemes at finite deformation: error against run time on a bar whose
+impact is known and on the rubber disc that bounces off a floor. Part of make report: finite.md,
+finite.csv, finite.png."""
 
 import csv
 import functools
@@ -75,7 +75,8 @@ def behind(speed):
 
 
 def exact_stretch(place, time, speed=SPEED):
-    """The stretch at a distance from the touching face, in the reference, at a time after it."""
+    """The stretch at a distance from the touching face, in the reference, at a time after
+    it."""
     least = behind(speed)
     ratio = np.clip(place / time, wave(least), 1.0)
     return np.sqrt((2.0 * ratio**2 + 1.0) / 3.0)
@@ -94,8 +95,8 @@ def control(run, step, end, *names):
 
 
 def bar(run):
-    """A bar of length 1, E = rho = 1, PR 0, that meets a wall after three and a half steps. Motion
-    across is held: a slender bar would buckle."""
+    """A bar of length 1, E = rho = 1, PR 0, that meets a wall after three and a half steps.
+    Motion across is held: a slender bar would buckle."""
     n = run["n"]
     step = run["courant"] / n
     touch = 3.5 * step
@@ -112,8 +113,8 @@ def bar(run):
 
 
 def judge_bar(run, folder, touch):
-    """err: stretches of the elements .9 of a crossing after the touch, in the mean square, over the
-    strain behind the wave. force: of two steps, in the mean square."""
+    """err: stretches of the elements .9 of a crossing after the touch, in the mean square, over
+    the strain behind the wave. force: of two steps, in the mean square."""
     n, least = run["n"], behind(SPEED)
     nodes, force, energy = (tables.read_run(folder, t) for t in ("nodout", "rwforc", "glstat"))
     times = np.unique(nodes["time"])
@@ -161,7 +162,8 @@ def history(folder):
 
 
 def judge_disc(reference, run, folder, _):
-    """err: velocity of the centre, mean over time of what it is off. force: impulse at the end."""
+    """err: velocity of the centre, mean over time of what it is off. force: impulse at the
+    end."""
     energy = tables.read_run(folder, "glstat")
     t, v, impulse = history(folder)
     wanted = np.interp(t, reference["time"], reference["v"])
@@ -205,19 +207,20 @@ def study(store, size, jobs):
 # ---------------------------------------------------------------- pages
 
 HOW = {
-    "bar": """A bar of St Venant and Kirchhoff's law, PR 0, n elements along it and one across, meets
-a wall at v/c = .1. The law softens in compression, so that the wave is a simple one and known: the stretch
-behind it is .890885, the stress of contact .0919057 E until it is back. `err`: stretches of all
-elements when the wave has gone .9 of the bar, its fan too, in the mean square over the strain behind;
-`force`: of two steps while in contact, in the mean square over the exact one; `energy`: change of the energy
-in the run, most of it of the node that closes with its mass; `rise`: its largest rise above the
-start. Courant number of an element at small strain.""",
-    "disc": """The rubber disc of `input/finite`, n x n elements, at .2 of its speed of shear waves onto a smooth
-floor. **The reference is bipact's own**: EMC with %d x %d elements at Courant number %g; no exact
-solution is known, and errors near that between the reference and the next mesh say nothing.
-`err`: velocity of the centre over that of the fall, mean over time of what it is off; `force`: impulse of the
-floor at the end; `energy` and `rise` as of the bar. Courant number of an edge 2/n and waves
-of pressure.""",
+    "bar": """A bar of St Venant and Kirchhoff's law, PR 0, n elements along it and one across,
+meets a wall at v/c = .1. The law softens in compression, so that the wave is a simple one and
+known: the stretch behind it is .890885, the stress of contact .0919057 E until it is back.
+`err`: stretches of all elements when the wave has gone .9 of the bar, its fan too, in the mean
+square over the strain behind; `force`: of two steps while in contact, in the mean square over
+the exact one; `energy`: change of the energy in the run, most of it of the node that closes
+with its mass; `rise`: its largest rise above the start. Courant number of an element at small
+strain.""",
+    "disc": """The rubber disc of `input/finite`, n x n elements, at .2 of its speed of shear
+waves onto a smooth floor. **The reference is bipact's own**: EMC with %d x %d elements at
+Courant number %g; no exact solution is known, and errors near that between the reference and
+the next mesh say nothing. `err`: velocity of the centre over that of the fall, mean over time
+of what it is off; `force`: impulse of the floor at the end; `energy` and `rise` as of the bar.
+Courant number of an edge 2/n and waves of pressure.""",
 }
 TITLES = {"bar": "A bar against a wall", "disc": "A rubber disc on a floor"}
 
@@ -238,7 +241,8 @@ def table(results, scene):
 
 
 def best_lines(results):
-    """For each scene and force the least error and what it takes, and the largest rise of energy."""
+    """For each scene and force the least error and what it takes, and the largest rise of
+    energy."""
     heads = "scene, force of the step, least err, with, CPU s, largest rise of energy, failed"
     lines = ["| %s |" % " | ".join(heads.split(", ")), "|---" * 7 + "|"]
     for scene, form in itertools.product(N, FORCES):
@@ -258,13 +262,13 @@ def write_page(results, size, command, out):
     failed = sum("failed" in r for r in results)
     lines = ["# Finite deformation: error against run time", ""]
     lines += [
-        "%s, %s. %d runs, %d failed. Processor time is user + system of the whole process, tables off, "
-        "median of three (of runs beyond two seconds: one). Made by `%s` (FINITE=1: this page "
-        "alone); every run: [finite.csv](finite.csv)."
+        "%s, %s. %d runs, %d failed. Processor time is user + system of the whole process, "
+        "tables off, median of three (of runs beyond two seconds: one). Made by `%s` "
+        "(FINITE=1: this page alone); every run: [finite.csv](finite.csv)."
         % (common.today(), common.machine(), len(results), failed, command),
         "",
-        "EMC, PAPER, MIDPOINT: THETA 1/2 with this FORCE of `*BIPACT_KINEMATICS`; NEWMARK: gamma 1/2, "
-        "beta 1/4; PAOLI 0: PAOLI with PBETA 0, explicit.",
+        "EMC, PAPER, MIDPOINT: THETA 1/2 with this FORCE of `*BIPACT_KINEMATICS`; NEWMARK: "
+        "gamma 1/2, beta 1/4; PAOLI 0: PAOLI with PBETA 0, explicit.",
         "",
     ]
     lines += best_lines(results) + ["![error over run time](finite.png)", ""]

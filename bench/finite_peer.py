@@ -2,15 +2,15 @@
 """CalculiX (ccx) beside bipact at finite deformation, on the same mesh with the same steps: the
 rubber disc of input/finite that bounces off a smooth floor.  bench/finite_peer.py [STEPS]
 
-Disc of radius 1, 16 x 16 quadrilaterals, plane strain, W = G/2 (I1 J^(-2/3) - 3) + K/2 (J - 1)^2,
-G 1000, PR .3, density 1e-3, at 200 onto the floor, gap .01, end 6e-3. Both: energy at the end and
-its largest rise, over the start; penetration of the lowest node; user seconds, of bipact without
-tables and with the start of the program, least of three. Of bipact the worst residual of the
-ledger too, and passes of Newton's method a step. CalculiX: one layer of C3D8 held across it, NLGEOM,
-the same law (*HYPERELASTIC, NEO HOOKE, D1 = 2/K), *DYNAMIC of Hilber, Hughes and Taylor with
-alpha -.05, increments of at most the step, surface to surface contact by a linear penalty of
-50 E on a plate whose nodes are held; its energy is without what sits in the penalty. Without ccx
-its row is left out."""
+Disc of radius 1, 16 x 16 quadrilaterals, plane strain, W = G/2 (I1 J^(-2/3) - 3) + K/2 (J -
+1)^2, G 1000, PR .3, density 1e-3, at 200 onto the floor, gap .01, end 6e-3. Both: energy at the
+end and its largest rise, over the start; penetration of the lowest node; user seconds, of
+bipact without tables and with the start of the program, least of three. Of bipact the worst
+residual of the ledger too, and passes of Newton's method a step. CalculiX: one layer of C3D8
+held across it, NLGEOM, the same law (*HYPERELASTIC, NEO HOOKE, D1 = 2/K), *DYNAMIC of Hilber,
+Hughes and Taylor with alpha -.05, increments of at most the step, surface to surface contact by
+a linear penalty of 50 E on a plate whose nodes are held; its energy is without what sits in the
+penalty. Without ccx its row is left out."""
 
 import argparse
 import os

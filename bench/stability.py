@@ -25,8 +25,8 @@ shorter edge); those at finite deformation (stability_finite.py) by the deformed
 
 How far the energy rises is printed in each cell, so that "named" hides nothing. Cells are judged by
 the tables alone. Writes index.md, cells.csv and heat maps. Results are kept in build/stability, so that an
-interrupted study goes on where it stopped; --only runs the axes that have WORD in their name and takes
-all other cells from the cells.csv that is there. Exit code 1 if a cell is silent, or THETA with the
+interrupted study goes on where it stopped; --only runs the axes that have WORD in their name and
+takes all other cells from the cells.csv that is there. Exit code 1 if a cell is silent, or THETA with the
 consistent or lumped mass is named or refused inside its stated range.
 """
 

@@ -1,7 +1,8 @@
-"""Scenes of the stability atlas at finite deformation: a bar against a wall whose strains are known, two
-bars of rubber that meet end to end, a block of foam thrown obliquely on a slab. Bodies of the latter
-two are free; a run has 100 steps and meets in the fourth. Schemes and masses are those that finite
-deformation takes, PAPER and MIDPOINT are THETA 1/2 with this FORCE.
+"""Scenes of the stability atlas at finite deformation: a bar against a wall whose strains are
+known, two bars of rubber that meet end to end, a block of foam thrown obliquely on a slab.
+Bodies of the latter two are free; a run has 100 steps and meets in the fourth. Schemes and
+masses are those that finite deformation takes, PAPER and MIDPOINT are THETA 1/2 with this
+FORCE.
 
 Judged by stability_bodies.faults, from outside: true overlap of the deformed outlines, energy,
 momentum, forces; the bar by its exact displacements."""
@@ -116,8 +117,8 @@ def control(c, step, end):
 
 
 def finite_bar(path, c, o):
-    """The bar of finite_forms.py, 25 elements, at any speed and step, till .9 of a crossing after the
-    touch; of its height 1/25 and the inverse of the aspect ratio."""
+    """The bar of finite_forms.py, 25 elements, at any speed and step, till .9 of a crossing
+    after the touch; of its height 1/25 and the inverse of the aspect ratio."""
     n, speed = 25, o.get("amplitude", 0.1)
     step = o.get("courant", 0.5) / n
     touch, high = 3.5 * step, 1.0 / n / o.get("aspect", 1.0)
@@ -181,8 +182,8 @@ def foam(density, scale):
 
 
 def rubber_bars(path, c, o):
-    """Two bars of 5 x 2 cells of Mooney's rubber meet end to end; speeds over that of shear waves of
-    the slower bar, step half of what they take through an edge of the faster."""
+    """Two bars of 5 x 2 cells of Mooney's rubber meet end to end; speeds over that of shear
+    waves of the slower bar, step half of what they take through an edge of the faster."""
     poisson, high = o.get("poisson", 0.49), 2.0 / o.get("aspect", 1.0)
     softer, lighter = o.get("youngs", 1.0), o.get("densities", 1.0)
     waves = 1.0, math.sqrt(softer / lighter)
@@ -201,8 +202,8 @@ def rubber_bars(path, c, o):
 
 
 def foam_block(path, c, o):
-    """A block of foam, turned, thrown obliquely on a slab of foam; speed over that of shear waves of
-    the slower, step of a Courant number of the faster. Both of 1/8."""
+    """A block of foam, turned, thrown obliquely on a slab of foam; speed over that of shear
+    waves of the slower, step of a Courant number of the faster. Both of 1/8."""
     softer, lighter = o.get("youngs", 1.0), o.get("densities", 1.0)
     waves = 1.0, math.sqrt(softer / lighter)
     step = o.get("courant", 0.5) * 0.125 / (math.sqrt(3.0) * max(waves))

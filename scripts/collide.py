@@ -5,10 +5,11 @@ Scene number k of a seed is made from (seed, k) alone: two to five bodies of ran
 meshes and materials that are thrown at each other, stacked under gravity, or wedged in a
 groove; with --rigid some of them, one at least, are rigid parts, under MOREAU (restitution
 0, .5, 1) or THETA; with --mortar half of the pairs are mortars; with --soft all are of
-hyperelastic laws at finite deformation, at .02 to .2 of their speed of sound, in some of them steps
-that fail are halved. Their tables and meshes alone say whether the run is right:
+hyperelastic laws at finite deformation, at .02 to .2 of their speed of sound, in some of them
+steps that fail are halved. Their tables and meshes alone say whether the run is right:
 
-    always      exit code 0, or 1 with a message that names a node or element; an end within the limit;
+    always      exit code 0, or 1 with a message that names a node or element; an end within the
+                limit;
                 energy <= initial + external + motion + unsolved, ledger closed, momentum kept
                 (or its change equal to the impulse from outside), forces of both sides of a
                 contact opposite; mirrored, turned, renumbered with the bodies exchanged the
@@ -236,7 +237,7 @@ def symmetry(program, scene, moved, code, folder):
             break
     names = differing(found, until, apart, code, scene)
     for _ in range(NUDGES if names and scene["soft"] else 0):
-        # Round-off decides now and then which nodes a soft body lays on, and one nudge may miss it.
+        # Round-off decides now and then which nodes a soft body lays on; one nudge may miss it.
         row, far = departure(program, scene, few, rng, folder)
         if far:
             until, apart = min(until, max(0, row - 1)), True

@@ -23,8 +23,8 @@ NAMES = (
 MOST_WARNED, MOST_MEDIAN, MOST_99 = 0.02, 1.0e-3, 3.0e-3
 # Nodes of a mortar have an allowance of 5e-3 edge, and get a row at 1.5 times that.
 MOST_99_MORTAR = 7.5e-3
-# At finite deformation what a node has sunk in is not pushed out beyond what contact has taken, which
-# would give energy: .3 % of the radius of two discs, 2.4e-2 of an edge.
+# At finite deformation what a node has sunk in is not pushed out beyond what contact has taken,
+# which would give energy: .3 % of the radius of two discs, 2.4e-2 of an edge.
 MOST_99_SOFT, MOST_WARNED_SOFT = 3.0e-2, 0.1
 ENOUGH = 50  # fine runs, below which shares say nothing
 

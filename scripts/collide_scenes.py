@@ -6,8 +6,8 @@ draw(seed, number) makes a scene from these two numbers alone. Speeds are about 
     kind        thrown, stacked or wedged; extreme: what is beyond ordinary ranges
     bodies      xy, elements, loop (outline), young, density, poisson, velocity (of the nodes),
                 held (nodes that cannot move), driven (nodes moved by the velocity `drive`),
-                rigid (a rigid part: held or driven as a whole); of a soft scene law, the cards of
-                its material, the first field open
+                rigid (a rigid part: held or driven as a whole); of a soft scene law, the cards
+                of its material, the first field open
     gravity     acceleration; wall: None or (point, normal, mu)
     pairs       (body, body) in contact with friction mu; single: "", "all" or "set", the card
                 of one contact for all bodies

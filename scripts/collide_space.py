@@ -4,9 +4,9 @@
 Bodies of tetrahedra: one of them, cubes of six, L-shaped bodies of eighteen; of random
 stiffness, density, orientation, velocity, spin and friction. Each frame of each run is judged
 by axes of separation between the tetrahedra of the two bodies, which knows nothing of the
-program. With --soft bodies are of hyperelastic laws at finite deformation, at .02 to .25 of their
-speed of sound. A silent overlap, a rise of the energy, or an exit code other than 0 and 1 makes
-this script end with 1."""
+program. With --soft bodies are of hyperelastic laws at finite deformation, at .02 to .25 of
+their speed of sound. A silent overlap, a rise of the energy, or an exit code other than 0 and 1
+makes this script end with 1."""
 
 import argparse
 import itertools
