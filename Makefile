@@ -73,15 +73,16 @@ fuzz: ## run N (20000) damaged decks; SEED=1
 	@BIPACT=$(BIN) $(PYTHON3) tests/fuzz/fuzz.py --count $(or $(N),20000) --seed $(or $(SEED),1) \
 	  --keep build/fuzz
 
-collide: ## run N (200) random collisions each: deformable, with rigid parts, with mortars, in space; SEED=1, FRESH=1
+collide: ## run N (200) random collisions each: deformable, with rigid parts, with mortars, soft at finite deformation, in space; SEED=1, FRESH=1
 	+@$(again) venv
 	+@$(again) all
-	@failed=0; for kind in plain rigid mortar; do \
+	@failed=0; for kind in plain rigid mortar soft; do \
 	  echo "$$kind"; BIPACT=$(BIN) .venv/bin/python scripts/collide.py $(or $(N),200) \
 	  --seed $(or $(SEED),1) $(if $(FRESH),--fresh) --out build/collide/$$kind \
 	  $$(test $$kind = plain || echo --$$kind) || failed=1; done; \
-	  echo space; .venv/bin/python scripts/collide_space.py $(or $(N),200) --bin $(BIN) \
-	  --seed $(or $(SEED),1) || failed=1; exit $$failed
+	  for kind in space "space, soft"; do echo "$$kind"; \
+	  .venv/bin/python scripts/collide_space.py $(or $(N),200) --bin $(BIN) --seed $(or $(SEED),1) \
+	  $$(test "$$kind" = space || echo --soft) || failed=1; done; exit $$failed
 
 bench: ## measure speed and accuracy of the two-bar impact and of the reader
 	+@$(again) all bench-programs
@@ -97,16 +98,17 @@ bench-fclib: ## all contact solvers over FCLIB=dir of problems; SOLVERS=AUTO,GS,
 	@.venv/bin/python bench/contact_problems.py $(or $(FCLIB),../shared/fclib) \
 	  $(if $(SOLVERS),--solvers $(SOLVERS)) $(if $(SICONOS),--siconos $(SICONOS)) $(if $(OUT),--out $(OUT))
 
-report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: part of it; PEERS=1; STATIC=1; SPACE=1
+report: ## error against run time, to doc/report; QUICK=1: to build; REDUCED=1: part of it; PEERS=1; STATIC=1; SPACE=1; FINITE=1
 	+@$(again) venv
 	+@$(again) all
 	@.venv/bin/python bench/report.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) \
-	  $(if $(PEERS),--peers) $(if $(STATIC),--static) $(if $(SPACE),--space) $(if $(FRESH),--fresh)
+	  $(if $(PEERS),--peers) $(if $(STATIC),--static) $(if $(SPACE),--space) $(if $(FINITE),--finite) $(if $(FRESH),--fresh)
 
-stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build; REDUCED=1
+stability: ## the stability atlas on stiff and extreme cases, to doc/stability; QUICK=1: to build; REDUCED=1; ONLY=word of axes
 	+@$(again) venv
 	+@$(again) all
-	@.venv/bin/python bench/stability.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) $(if $(FRESH),--fresh)
+	@.venv/bin/python bench/stability.py $(if $(QUICK),--quick) $(if $(REDUCED),--reduced) \
+	  $(if $(ONLY),--only "$(ONLY)") $(if $(FRESH),--fresh)
 
 debug sanitize: ## build bin/bipact-debug or bin/bipact-sanitize
 	+@$(again) FLAVOUR=$@ all

@@ -211,7 +211,7 @@ def one(path, version, scene, n, courant):
 
 
 def resource_of(command, folder):
-    """Runs a program on one thread: exit code, processor seconds, its last line."""
+    """Runs a program on one thread: exit code, processor seconds, user seconds, its last line."""
     environment = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1")
     with tempfile.TemporaryFile() as said:
         child = subprocess.Popen(command, cwd=folder, stdout=said, stderr=said, env=environment)
@@ -220,7 +220,8 @@ def resource_of(command, folder):
         said.seek(0)
         lines = said.read().decode(errors="replace").split("\n")
     last = next((x.strip() for x in reversed(lines) if x.strip()), "")
-    return {"code": child.returncode, "cpu": usage.ru_utime + usage.ru_stime, "said": last}
+    cpu = usage.ru_utime + usage.ru_stime
+    return {"code": child.returncode, "cpu": cpu, "user": usage.ru_utime, "said": last}
 
 
 def study(store, size):

@@ -13,7 +13,8 @@ figures. --quick takes few meshes and steps and writes to build/report/quick; --
 three coarsest meshes of each scene; --peers runs CalculiX where it is
 installed, on the same scenes; --static makes only
 the part on static contact pairings (static_pairings.py), which has CalculiX beside it wherever it
-is installed, --space that on solids (space_forms.py); --one makes one run of the study and prints its errors.
+is installed, --space that on solids (space_forms.py), --finite that at finite deformation
+(finite_forms.py); --one makes one run of the study and prints its errors.
 """
 
 import json
@@ -27,6 +28,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import combinations
 import common
 import compare
+import finite_forms
 import make_bars
 import peers
 import report_pages
@@ -227,20 +229,22 @@ def main():
         "--one", metavar="KEY", help="one run: scene|method|mass|redist|n|courant"
     )
     parser.add_argument("--space", action="store_true", help="solids in space alone")
+    parser.add_argument("--finite", action="store_true", help="finite deformation alone")
     parser.add_argument("--static", action="store_true", help="static contact pairings alone")
     a = parser.parse_args()
     if a.one:
         return one(a.one)
     size = "quick" if a.quick else "reduced" if a.reduced else "full"
     store, out = common.study_folders("report", a)
-    if not a.static:
-        space_forms.write(
-            space_forms.study(store, size, a.jobs), report_pages.COMMANDS[size], out
-        )
-    if a.space:
+    command = report_pages.COMMANDS[size]
+    if not (a.static or a.finite):
+        space_forms.write(space_forms.study(store, size, a.jobs), command, out)
+    if not (a.static or a.space):
+        finite_forms.write(finite_forms.study(store, size, a.jobs), size, command, out)
+    if a.space or a.finite:
         return 0
     static = static_pairings.study(store, size, a.jobs, a.peers or size != "quick")
-    static_pairings.write(static, size, report_pages.COMMANDS[size], out)
+    static_pairings.write(static, size, command, out)
     if a.static:
         return 0
     started = start_up(store)

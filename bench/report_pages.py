@@ -156,6 +156,7 @@ FIGURES = (
 
 STATIC = ["## Static contact", "", "NODE and MORTAR on closed forms: [static.md](static.md).", ""]
 STATIC += ["## In space", "", "Forms of solids and masses on exact scenes: [space.md](space.md).", ""]
+STATIC += ["## Finite deformation", "", "Forces of a step and schemes: [finite.md](finite.md).", ""]
 
 
 def reference_lines():

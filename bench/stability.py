@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The stability atlas: stiff and extreme scenes, every scheme and mass, one verdict a cell.
 
-    stability.py [--quick | --reduced] [--jobs J] [--out doc/stability] [--fresh]
+    stability.py [--quick | --reduced] [--only WORD] [--jobs J] [--out doc/stability] [--fresh]
 
     within    the contact face stays within (h + c dt)/L of the exact displacement, in units of
               v0 2 L/c: a front is smeared by an element and a step at most
@@ -21,11 +21,12 @@ the shorter edge and half the way of a step (contact on velocities: by one more)
 sources, forces that are not opposite, rigid parts that change their shape. Two rigid blocks are
 "named" under every scheme without a law for their impacts: the warning rigid-impact says it. Scenes
 in space (stability_space.py) are judged alike, by axes of separation of their tetrahedra (3e-2 of the
-shorter edge).
+shorter edge); those at finite deformation (stability_finite.py) by the deformed outlines.
 
 How far the energy rises is printed in each cell, so that "named" hides nothing. Cells are judged by
 the tables alone. Writes index.md, cells.csv and heat maps. Results are kept in build/stability, so that an
-interrupted study goes on where it stopped. Exit code 1 if a cell is silent, or THETA with the
+interrupted study goes on where it stopped; --only runs the axes that have WORD in their name and
+takes all other cells from the cells.csv that is there. Exit code 1 if a cell is silent, or THETA with the
 consistent or lumped mass is named or refused inside its stated range.
 """
 
@@ -43,6 +44,7 @@ import common
 import compare
 import tables
 import stability_bodies
+import stability_finite
 import stability_scenes
 import stability_space
 
@@ -66,6 +68,7 @@ DECAYS = (1.0e-6, 1.0e-2, 1.0, 1.0e2, 1.0e4, 1.0e8)
 WAYS = (1.0e-4, 1.0e-2, 0.1, 1.0, 10.0)  # of a step, in edges
 
 SCENES = dict(stability_scenes.SCENES, **stability_bodies.SCENES, **stability_space.SCENES)
+SCENES.update(stability_finite.SCENES)
 BARS = ("bars", "mortar")  # scenes of two bars
 
 # axis: (scene, what varies, its values, is a value inside the range promised for THETA C and L)
@@ -134,6 +137,7 @@ AXES = {
     ),
     "flat block of tetrahedra, friction": ("space_flat", "mu", MU, lambda v: v <= 10.0),
     "bouncing bar, 1e5 steps": ("bouncing", "courant", (0.5, 0.9), lambda v: True),
+    **stability_finite.AXES,
 }
 # Two at a time, for THETA alone: (scene, first, values, second, values)
 PAIRS = {
@@ -147,6 +151,8 @@ PAIRS = {
 def few(values, size):
     """Values of an axis for a short study: every third, or the last (both ends of ratios)."""
     both = (POWERS, YOUNGS, DENSITIES, SLABS, RATIOS, DECAYS)
+    if any(values is a[2] for a in stability_finite.AXES.values()):
+        return {"full": values, "quick": values[-2:], "reduced": values}[size]
     ends = values[:: len(values) - 1] if values in both else values[-1:]
     return {"full": values, "quick": values[::3], "reduced": ends}[size]
 
@@ -156,7 +162,7 @@ def cells(size, pairs):
     for axis, (scene, name, values, inside) in AXES.items():
         if scene == "bouncing" and size == "reduced":
             continue
-        for pair in pairs:
+        for pair in pairs_of(scene, pairs):
             for value in few(values, size):
                 ours = pair[0] == "THETA" and pair[1] != "DISPERSION"
                 yield cell(axis, scene, pair, {name: value}, ours and inside(value))
@@ -167,6 +173,13 @@ def cells(size, pairs):
                 for b in few(seconds, size):
                     promised = inside[first](a) and inside[second](b)
                     yield cell(axis, scene, pair, {first: a, second: b}, promised)
+
+
+def pairs_of(scene, pairs):
+    """Combinations of a scene: those that finite deformation takes, or those of all others."""
+    if scene in stability_finite.SCENES:
+        return stability_finite.PAIRS
+    return [p for p in pairs if p[0] not in stability_finite.FORCES]
 
 
 def cell(axis, scene, pair, options, promised):
@@ -181,6 +194,8 @@ def key(c):
 
 def write_scene(path, c):
     """Writes the deck of a cell; returns the data for its judgement."""
+    if c["scene"] in stability_finite.SCENES:
+        return SCENES[c["scene"]](path, c, dict(c["options"]))
     of = combinations.bar_options if c["scene"] in BARS else combinations.options
     return SCENES[c["scene"]](path, of(c), dict(c["options"]))
 
@@ -188,6 +203,8 @@ def write_scene(path, c):
 def error_of(folder, c, data):
     """Distance from the exact solution in its own unit, or None where there is none."""
     meta = data["meta"]
+    if "finite" in data:
+        return stability_finite.error_of(folder, data)
     if data["exact"]:
         found = compare.measure(folder, meta)
         return found["e_u"]
@@ -268,17 +285,23 @@ def faults(folder, c, data, log):
     return found
 
 
+def value_of(c):
+    """What varies in a cell, as text."""
+    return " ".join("%s=%s" % item for item in c["options"].items())
+
+
 def judge(c):
     """One cell: its line of results."""
     result = {k: c[k] for k in ("axis", "scene", "method", "mass", "redist", "promised")}
-    result["value"] = " ".join("%s=%s" % item for item in c["options"].items())
+    result["value"] = value_of(c)
     with tempfile.TemporaryDirectory() as folder:
         deck, out = os.path.join(folder, "cell.k"), os.path.join(folder, "out")
         try:
             data = write_scene(deck, c)
         except ValueError as problem:
             return dict(result, verdict="refused", reason=str(problem))
-        done = common.run(deck, out, limit=300)
+        soft = c["scene"] in stability_finite.SCENES
+        done = common.run(deck, out, limit=stability_finite.LIMIT if soft else 300)
         if done["code"] == 2:
             return dict(result, verdict="refused", reason=first_words(done, folder))
         log = common.read_log(out) if os.path.exists(os.path.join(out, "bipact.log")) else {}
@@ -356,19 +379,23 @@ def short(value):
     return "%s %.0e" % value if isinstance(value, tuple) else "%g" % value
 
 
-def write_maps(results, pairs, size, out):
-    """One map an axis (combinations x values), one a pair and mass (values x values)."""
+def write_maps(results, pairs, size, out, only=""):
+    """One map an axis (combinations x values), one a pair and mass (values x values); of axes
+    without the word `only` the names alone."""
     found = {key(c): r for c, r in results}
     names = []
     for axis, (scene, name, values, _) in AXES.items():
         values = few(values, size)
         grid = [
-            [found.get(key(cell(axis, scene, s, {name: v}, 0))) for v in values] for s in pairs
+            [found.get(key(cell(axis, scene, s, {name: v}, 0))) for v in values]
+            for s in pairs_of(scene, pairs)
         ]
         if not any(map(any, grid)):
             continue
-        rows = [common.label(s) for s in pairs]
+        rows = [common.label(s) for s in pairs_of(scene, pairs)]
         names.append(axis.replace(", ", "_").replace(" ", "_") + ".png")
+        if only not in axis:
+            continue
         heat_map(axis, rows, [short(v) for v in values], grid, os.path.join(out, names[-1]))
     for axis, (scene, first, firsts, second, seconds) in PAIRS.items():
         firsts, seconds = few(firsts, size), few(seconds, size)
@@ -382,6 +409,8 @@ def write_maps(results, pairs, size, out):
             ]
             word = common.label(pair)
             names.append((axis + "_" + word).replace(" ", "_").replace("*", "0") + ".png")
+            if only not in axis:
+                continue
             heat_map(
                 "%s\n%s (across, up)" % (word, axis),
                 [short(b) for b in seconds],
@@ -406,8 +435,8 @@ def write_index(results, names, about, out):
     ]
     if about["size"] != "full":
         lines += [
-            "**Part of the study**: the extreme of each axis. The whole: `make stability` (it goes on "
-            "where it stopped).",
+            "**Part of the study**: the extreme of each axis, all values at finite deformation. "
+            "The whole: `make stability` (it goes on where it stopped).",
             "",
         ]
     text, outside = __doc__.split("\n\n")[2:4]
@@ -440,8 +469,9 @@ def write_index(results, names, about, out):
     lines += [
         "",
         "THETA 1/2 with the consistent or lumped mass, Courant 0.01 to 100, ratios 1e-6 "
-        "to 1e6, mu up to 10, Poisson ratio up to 0.499: %d cells, %d not within bound or "
-        "bounded." % (len(promised), len(broken)),
+        "to 1e6, mu up to 10, Poisson ratio up to 0.499; at finite deformation as its axes say "
+        "(stability_finite.py): %d cells, %d not within bound or bounded."
+        % (len(promised), len(broken)),
         "",
         "## Failures and their words",
         "",
@@ -508,16 +538,40 @@ def write_csv(results, out):
             )
 
 
+def row_of(c):
+    """Identity of a cell in cells.csv."""
+    return c["axis"], value_of(c), c["method"], c["mass"], str(c["redist"])
+
+
+def read_csv(out):
+    """{row_of: result} of the cells.csv that is there, if any."""
+    path, found = os.path.join(out, "cells.csv"), {}
+    if not os.path.exists(path):
+        return found
+    with open(path, encoding="utf-8", newline="") as file:
+        for r in csv.DictReader(file):
+            name = tuple(r[k] for k in ("axis", "value", "method", "mass", "redist"))
+            for k in ("growth", "error", "bound"):
+                r[k] = float(r[k]) if r[k] else None
+            found[name] = dict(r, promised=r["promised"] == "True", redist=int(r["redist"]))
+    return found
+
+
 def main():
-    a = common.study_parser(__doc__).parse_args()
+    parser = common.study_parser(__doc__)
+    parser.add_argument("--only", metavar="WORD", default="", help="axes with this word anew")
+    a = parser.parse_args()
     size = "quick" if a.quick else "reduced" if a.reduced else "full"
     store, out = common.study_folders("stability", a)
     pairs, refused = combinations.taken(store, combinations.ONE_MASS)
+    pairs += [p for p in stability_finite.PAIRS if p not in pairs]
     wanted = list(cells(size, pairs))
-    found = common.sweep(judge, wanted, key, store, a.jobs)
-    results = [(c, found[key(c)]) for c in wanted]
+    kept = read_csv(out) if a.only else {}
+    found = common.sweep(judge, [c for c in wanted if a.only in c["axis"]], key, store, a.jobs)
+    results = [(c, found[key(c)] if a.only in c["axis"] else kept.get(row_of(c))) for c in wanted]
+    results = [(c, r) for c, r in results if r]
     write_csv(results, out)
-    names = write_maps(results, pairs, size, out)
+    names = write_maps(results, pairs, size, out, a.only)
     broken = write_index(
         results, names, dict(size=size, pairs=pairs, refused=refused), out
     )

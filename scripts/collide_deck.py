@@ -33,7 +33,13 @@ def control(scene):
         scene["scheme"],
         "*BIPACT_LEDGER",
         "1,",
-    ]
+    ] + finite(scene)
+
+
+def finite(scene):
+    """Cards of a soft scene."""
+    out = ["*CONTROL_IMPLICIT_SOLUTION", "12,"] if scene.get("soft") else []
+    return out + (["*BIPACT_STEP", "HALVE,"] if scene.get("halve") else [])
 
 
 def geometry(scene):
@@ -59,7 +65,9 @@ def parts(scene):
         material = [number(b[name]) for name in ("density", "young", "poisson")]
         out += ["*PART", "body %d" % k, "%d,%d,%d" % (k, k, k)]
         out += ["*SECTION_SHELL", "%d,13,,4" % k, "1.0,"]
-        if b["rigid"]:
+        if b.get("law"):
+            out += [b["law"][0], b["law"][1] % k] + b["law"][2:]
+        elif b["rigid"]:
             held = "1.0,7,7" if b["held"] else "0.0,0,0"
             out += ["*MAT_RIGID", "%d,%s" % (k, material[0]), held, ","]
         else:

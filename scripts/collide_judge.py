@@ -36,10 +36,11 @@ def edges_of(loop):
 
 
 def inside(points, loop):
-    """Whether points (rows, n, 2) lie in polygons (rows, m, 2), by the crossing number."""
+    """Whether points (rows, n, 2) lie in polygons (rows, m, 2), by the crossing number. Both
+    edges at a corner have the same height of it, which a + d need not be."""
     a, d = edges_of(loop)
     x, y = points[:, :, None, 0], points[:, :, None, 1]
-    ay, by = a[:, None, :, 1], (a + d)[:, None, :, 1]
+    ay, by = a[:, None, :, 1], np.roll(loop, -1, axis=-2)[:, None, :, 1]
     straddles = (ay > y) != (by > y)
     side = cross(d[:, None], np.stack([x - a[:, None, :, 0], y - ay], axis=-1))
     left = straddles & ((side > 0.0) == (by > ay))

@@ -23,6 +23,9 @@ NAMES = (
 MOST_WARNED, MOST_MEDIAN, MOST_99 = 0.02, 1.0e-3, 3.0e-3
 # Nodes of a mortar have an allowance of 5e-3 edge, and get a row at 1.5 times that.
 MOST_99_MORTAR = 7.5e-3
+# At finite deformation what a node has sunk in is not pushed out beyond what contact has taken,
+# which would give energy: .3 % of the radius of two discs, 2.4e-2 of an edge.
+MOST_99_SOFT, MOST_WARNED_SOFT = 3.0e-2, 0.1
 ENOUGH = 50  # fine runs, below which shares say nothing
 
 
@@ -50,20 +53,21 @@ def summary(results):
     }
 
 
-def shares(fine, mortar):
+def shares(fine, mortar, soft=False):
     """Rules on all fine runs: [(text, whether it holds)]; none for a few runs."""
     if fine["runs"] < ENOUGH:
         return []
     share = (fine["warned"] + fine["stopped"]) / fine["runs"]
+    deep = MOST_99_SOFT if soft else MOST_99_MORTAR if mortar else MOST_99
     rules = (
-        ("fine runs warned or stopped", share, MOST_WARNED),
+        ("fine runs warned or stopped", share, MOST_WARNED_SOFT if soft else MOST_WARNED),
         ("fine runs, median overlap", fine["median"], MOST_MEDIAN),
-        ("fine runs, overlap of 99 %", fine["99 %"], MOST_99_MORTAR if mortar else MOST_99),
+        ("fine runs, overlap of 99 %", fine["99 %"], deep),
     )
     return [("%s: %.2g, at most %g" % rule, rule[1] <= rule[2]) for rule in rules]
 
 
-def close(results, folder, mortar=False):
+def close(results, folder, mortar=False, soft=False):
     """Prints failures, the table and the last line; returns the exit code."""
     failed = [r for r in results if r["faults"]]
     for r in failed[:30]:
@@ -79,7 +83,7 @@ def close(results, folder, mortar=False):
     seconds = [r["seconds"] for r in results] or [0.0]
     program = [r["bipact"] for r in results] or [0.0]
     print("seconds a run: %.2f, bipact %.2f" % (np.mean(seconds), np.mean(program)))
-    rules = shares(summary([r for r in results if r["class"] == "fine"]), mortar)
+    rules = shares(summary([r for r in results if r["class"] == "fine"]), mortar, soft)
     for text, holds in rules:
         print("%s %s" % ("ok  " if holds else "FAIL", text))
     wrong = len(failed) + sum(not holds for _, holds in rules)

@@ -6,11 +6,13 @@ draw(seed, number) makes a scene from these two numbers alone. Speeds are about 
     kind        thrown, stacked or wedged; extreme: what is beyond ordinary ranges
     bodies      xy, elements, loop (outline), young, density, poisson, velocity (of the nodes),
                 held (nodes that cannot move), driven (nodes moved by the velocity `drive`),
-                rigid (a rigid part: held or driven as a whole)
+                rigid (a rigid part: held or driven as a whole); of a soft scene law, the cards
+                of its material, the first field open
     gravity     acceleration; wall: None or (point, normal, mu)
     pairs       (body, body) in contact with friction mu; single: "", "all" or "set", the card
                 of one contact for all bodies
     scheme      card of *BIPACT_TIME
+    soft        finite deformation; halve: steps that fail are halved
     ids         node numbers of each body; order: elements in the order of the deck
 """
 
@@ -340,6 +342,64 @@ def make_rigid(rng, scene):
     set_rates(scene)
 
 
+LAWS = ("foam", "blatz-ko", "mooney", "ogden", "neo-hooke", "elastic")
+
+
+def law(rng, b, extreme):
+    """Cards of a random law whose modulus of a bar is the body's; sets its Poisson ratio."""
+    name = str(rng.choice(LAWS))
+    fixed = {"foam": 0.25, "blatz-ko": 0.463, "neo-hooke": rng.uniform(0.1, 0.49)}
+    fixed["elastic"] = rng.uniform(0.0, 0.4)
+    nu = fixed.get(name, rng.uniform(0.46, 0.495))
+    if extreme and name not in ("foam", "blatz-ko", "elastic"):
+        nu = rng.uniform(0.495, 0.499)
+    b["poisson"] = float(nu)
+    shear, share = b["young"] / (2.0 * (1.0 + nu)), rng.uniform(0.3, 1.0)
+    first = "%d," + ",".join(repr(float(x)) for x in (b["density"], nu))
+    plain = "%d," + ",".join(repr(float(x)) for x in (b["density"], shear))
+    return {
+        "foam": ["*MAT_BLATZ-KO_FOAM", plain],
+        "blatz-ko": ["*MAT_BLATZ-KO_RUBBER", plain],
+        "mooney": ["*MAT_MOONEY-RIVLIN_RUBBER", mooney(first, shear, share)],
+        "ogden": ["*MAT_OGDEN_RUBBER", first, "%r,%r" % ogden(shear, share), "3.0,-2.0"],
+        "neo-hooke": ["*MAT_HYPERELASTIC_RUBBER", first, "%r," % float(0.5 * shear)],
+        "elastic": ["*MAT_ELASTIC", "%%d,%r,%r,%r" % (b["density"], b["young"], float(nu))],
+    }[name]
+
+
+def mooney(first, shear, share):
+    """A and B, whose sum is half of the shear modulus."""
+    return first + ",%r,%r" % (float(0.5 * shear * share), float(0.5 * shear * (1.0 - share)))
+
+
+def ogden(shear, share):
+    """MU of ALPHA 3 and -2."""
+    return float(shear * share / 1.5), float(-shear * (1.0 - share))
+
+
+def make_soft(rng, scene):
+    """Hyperelastic bodies at finite deformation: speeds are 1/5 to 1/50 of that of sound in the
+    softest one (SVK: 1/10 at most), some turn by more than a radian in the run."""
+    bodies = scene["bodies"]
+    sound = 10.0 ** rng.uniform(0.7, 1.7)
+    factor = sound**2 / min(b["young"] / b["density"] for b in bodies)
+    for b in bodies:
+        b["young"] *= factor
+        b["law"] = law(rng, b, "poisson" in scene["extreme"])
+        if b["law"][0] == "*MAT_ELASTIC" and b["young"] < 100.0 * b["density"]:
+            b["law"] = ["*MAT_BLATZ-KO_FOAM", "%%d,%r,%r" % (b["density"], b["young"] / 2.5)]
+            b["poisson"] = 0.25
+        if not (b["held"] or b["driven"]) and rng.random() < 0.5:
+            arm = b["xy"] - loop_of(b).mean(axis=0)
+            omega = min(1.5 / scene["end"], 0.6 / np.hypot(*arm.T).max()) * rng.uniform(
+                -1.0, 1.0
+            )
+            b["velocity"] = b["velocity"] + omega * np.column_stack([-arm[:, 1], arm[:, 0]])
+    # A body that is driven into another one would be in ever shorter steps.
+    scene["halve"] = bool(rng.random() < 0.3) and not any(b["driven"] for b in bodies)
+    set_rates(scene)
+
+
 def velocities_of(b):
     """Velocity of the centre of mass and rate of rotation of a rigid body."""
     arm, v = b["xy"] - b["xy"].mean(axis=0), b["velocity"].mean(axis=0)
@@ -355,7 +415,7 @@ def may_meet_rigid(scene):
     return any(rigid) and bool(scene["wall"]) or sum(rigid) > 1
 
 
-def draw(seed, number, single=False, mortar=False, rigid=False):
+def draw(seed, number, single=False, mortar=False, rigid=False, soft=False):
     """The scene of a number."""
     rng = np.random.default_rng([seed, number])
     kind = str(rng.choice(sorted(KINDS)))
@@ -364,7 +424,7 @@ def draw(seed, number, single=False, mortar=False, rigid=False):
     count = int(rng.choice([2, 3, 4, 5], p=[0.4, 0.3, 0.2, 0.1]))
     across = min(8.0, max(3.0, math.sqrt(200.0 / count) - 1.0))
     scene = dict(kind=kind, extreme=extreme, count=count, across=across)
-    scene.update(gravity=np.zeros(2), wall=None, scheme="THETA,0.5")
+    scene.update(gravity=np.zeros(2), wall=None, scheme="THETA,0.5", soft=soft, halve=False)
     arrange = KINDS[kind](rng, scene)
     set_steps(rng, scene)
     set_materials(rng, scene)
@@ -377,6 +437,8 @@ def draw(seed, number, single=False, mortar=False, rigid=False):
     scene["mortars"] = {frozenset(p) for p in scene["pairs"] if mortar and other.random() < 0.5}
     if rigid:
         make_rigid(np.random.default_rng([seed, number, 2]), scene)
+    if soft:
+        make_soft(np.random.default_rng([seed, number, 3]), scene)
     number_nodes(scene)
     angle = rng.choice([0.0, rng.uniform(0.0, 6.283)])
     return transformed(scene, turn(angle)) if angle else scene

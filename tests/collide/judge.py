@@ -84,6 +84,12 @@ def check_inside():
         found = judge.inside(still(points), still(loop))[0]
         wrong += np.count_nonzero(found != (np.abs(turns) > math.pi))
     check("points inside polygons: %d differ" % wrong, wrong == 0)
+    # Heights of a corner and a point are equal, start + (end - start) of its edges is another one.
+    loops = rng.uniform(1.0, 2.0, (200, 4, 2)) * [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    loops[:, 1, 1] *= 10.0 ** rng.uniform(-8.0, 0.0, 200)
+    points = loops[:, 1:2] - [10.0, 0.0]
+    wrong = np.count_nonzero(judge.inside(points, loops))
+    check("points at the height of a corner: %d inside" % wrong, wrong == 0)
 
 
 def check_through():
