@@ -218,20 +218,21 @@ contains
 
   !> Is a factor in each step dearer than conjugate gradients with a solve for each contact dof?
   !> Where the mass makes a good part of the diagonal (steps of three crossing times of an
-  !> element or less) these take a dozen iterations, whatever the mesh. Rates in Gflop/s are
+  !> element or less) these take about 4/sqrt(share) iterations, whatever the mesh. Rates in Gflop/s are
   !> those of one core with the reference BLAS (doc/performance.md).
   logical function suits_iteration(run)
     type(run_t), intent(in) :: run
     real(wp), parameter :: least_share = 0.05_wp, rate_factor = 2.5_wp, rate_iteration = 0.8_wp
-    real(wp), parameter :: passes = 5.0_wp, iterations = 12.0_wp, clear = 0.7_wp
-    real(wp) :: direct, each
+    real(wp), parameter :: passes = 5.0_wp, clear = 0.8_wp
+    real(wp) :: direct, each, share
     suits_iteration = .false.
     if (.not. allocated(run%newton) .or. run%step%is_static .or. allocated(run%shift) .or. &
         .not. allocated(run%matrix%value)) return
-    if (mass_share(run) < least_share) return
+    share = mass_share(run)
+    if (share < least_share) return
     associate (info => run%solver%info, d => run%system%dim)
       direct = (work_of(run%solver) + passes*0.5e-9_wp*info%factor_bytes)/rate_factor
-      each = iterations*8.0e-9_wp*d**2*size(run%system%graph%column)/rate_iteration
+      each = 4.0_wp/sqrt(share)*8.0e-9_wp*d**2*size(run%system%graph%column)/rate_iteration
       suits_iteration = (d*size(kept_nodes(run)) + 2.0_wp*passes)*each < clear*direct
     end associate
   end function suits_iteration
