@@ -5,7 +5,7 @@ module run_operator
   use assembly_system, only: effective_matrix, diagonal_matrix
   use base_kinds, only: wp, zero
   use base_messages, only: add_message
-  use base_status, only: status_t, failed
+  use base_status, only: status_t, failed, status_numerical
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
@@ -17,8 +17,8 @@ module run_operator
   use run_rigid, only: link_interface, keep_flexibility
   implicit none
   private
-  public :: make_operators, change_operators, factor_matrix, size_factor, use_operator, &
-      kept_nodes
+  public :: make_operators, change_operators, factor_matrix, renew_matrix, size_factor, &
+      use_operator, kept_nodes
 
 contains
 
@@ -129,6 +129,19 @@ contains
     end do
     if (allocated(run%other)) call use_operator(run, in_use)
   end subroutine factor_matrix
+
+  !> Factors for another step, interface or set of held dofs. Newton's method factors its tangent
+  !> in the first pass of each step, without the part of the stresses where it must: a pivot that
+  !> is lost before says nothing of the step.
+  subroutine renew_matrix(run, again, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    if (failed(status)) return
+    call factor_matrix(run, again, status)
+    if (.not. allocated(run%newton) .or. status%code /= status_numerical) return
+    if (.not. run%newton%is_explicit) status = status_t()
+  end subroutine renew_matrix
 
   !> Vectors of the interface nodes.
   subroutine size_interface(run)
