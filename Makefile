@@ -200,10 +200,13 @@ warned := $(shell find $(B)/obj -name '*.log' -size +0 2>/dev/null)
 $(shell rm -f $(warned:.log=.o))
 endif
 
+# Arrays there are of one element or point: they need no memory of the heap anew each time.
+small := src/solid/% src/material/%
+
 define compile
 @mkdir -p $(@D) $(B)/mod
 @echo "  FC   $<"
-$(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) \
+$(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) $(if $(filter $(small),$<),-fstack-arrays) \
   $(if $(filter src/hdf5/% src/fclib/% src/store/%,$<),-I$(HDF5_MODULES)) -J$(B)/mod -c $< -o $@ \
   2>$(@:.o=.log) || { cat $(@:.o=.log) >&2; exit 1; }; cat $(@:.o=.log) >&2
 endef

@@ -10,12 +10,13 @@ module assembly_solid
   use material_base, only: material_t, plane_stress
   use model_data, only: model_t
   use solid_block, only: solid_t, force_rule_t, make_solid, begin_step, commit_step, &
-      element_force, element_tangent, element_energy, smallest_determinant, relative
+      element_force, element_tangent, element_energy, relative
+  use solid_limits, only: smallest_determinant, least_stretch
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
-      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_stretch, &
-      exchange_solids, plastic_work
+      add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_volume, &
+      find_compression, exchange_solids, plastic_work
 
 contains
 
@@ -38,8 +39,8 @@ contains
     end do
   end subroutine make_solids
 
-  !> Does a part have mean dilatation? Bilinear elements of laws that keep their volume do,
-  !> where QP0 says nothing else; plane stress has no such need.
+  !> Does a part have mean dilatation? Linear elements of several points, of laws that keep
+  !> their volume, do, where QP0 says nothing else; plane stress has no such need.
   pure logical function takes_mean(model, element, material, plane)
     type(model_t), intent(in) :: model
     class(element_t), intent(in) :: element
@@ -50,7 +51,7 @@ contains
     select case (element%name)
     case ('HEX8MEAN')
       takes_mean = .true.
-    case ('QUAD4', 'QUAD4AX', 'HEX8')
+    case ('QUAD4', 'QUAD4AX', 'HEX8', 'WEDGE6', 'PYRAMID5')
       takes_mean = model%controls%mean_dilatation == 1 .or. &
           model%controls%mean_dilatation == -1 .and. material%mean_dilatation
     end select
@@ -109,15 +110,14 @@ contains
     real(wp), intent(in) :: u0(:, :), x(:, :)
     type(graph_t), intent(in) :: graph
     type(block_matrix_t), intent(inout) :: matrix
-    real(wp), allocatable :: ke(:, :)
-    integer :: b, k, i, j, d, at
+    real(wp) :: ke(size(u0, 1)*most_nodes, size(u0, 1)*most_nodes)
+    integer :: b, k, i, j, d, m, at
     d = size(u0, 1)
     do b = 1, size(solid)
       associate (s => solid(b))
-        if (s%n == 0) cycle
-        allocate (ke(d*s%nodes, d*s%nodes))
+        m = d*s%nodes
         do k = 1, s%n
-          call element_tangent(s, k, rule, u0, x, ke)
+          call element_tangent(s, k, rule, u0, x, ke(:m, :m))
           do j = 1, s%nodes
             do i = 1, s%nodes
               at = graph%position(s%node(i, k), s%node(j, k))
@@ -126,7 +126,6 @@ contains
             end do
           end do
         end do
-        deallocate (ke)
       end associate
     end do
   end subroutine add_solid_tangents
@@ -137,20 +136,17 @@ contains
     type(force_rule_t), intent(in) :: rule
     real(wp), intent(in) :: u0(:, :), x(:, :), d(:, :)
     real(wp), intent(inout) :: b(:, :)
-    real(wp), allocatable :: ke(:, :)
+    real(wp) :: ke(size(u0, 1)*most_nodes, size(u0, 1)*most_nodes)
     integer :: n, k, m
     do n = 1, size(solid)
       associate (s => solid(n))
-        if (s%n == 0) cycle
         m = size(u0, 1)*s%nodes
-        allocate (ke(m, m))
         do k = 1, s%n
           if (.not. any(abs(d(:, s%node(:, k))) > zero)) cycle
-          call element_tangent(s, k, rule, u0, x, ke)
-          b(:, s%node(:, k)) = b(:, s%node(:, k)) - reshape(matmul(ke, &
+          call element_tangent(s, k, rule, u0, x, ke(:m, :m))
+          b(:, s%node(:, k)) = b(:, s%node(:, k)) - reshape(matmul(ke(:m, :m), &
               reshape(d(:, s%node(:, k)), [m])), [size(u0, 1), s%nodes])
         end do
-        deallocate (ke)
       end associate
     end do
   end subroutine subtract_tangent_product
@@ -166,25 +162,52 @@ contains
     end do
   end subroutine add_solid_energy
 
-  !> The smallest determinant of F at a point, at displacements u, and the row of its element.
-  pure subroutine smallest_stretch(solid, u, stretch, element)
+  !> The smallest det F at a point, at displacements u, and the row of its element.
+  pure subroutine smallest_volume(solid, u, volume, element)
     type(solid_t), intent(in) :: solid(:)
     real(wp), intent(in) :: u(:, :)
-    real(wp), intent(out) :: stretch
+    real(wp), intent(out) :: volume
     integer, intent(out) :: element
     real(wp) :: det
     integer :: b, k
-    stretch = huge(one)
+    volume = huge(one)
     element = 0
     do b = 1, size(solid)
       do k = 1, solid(b)%n
         det = smallest_determinant(solid(b), k, u)
-        if (det >= stretch) cycle
-        stretch = det
+        if (det >= volume) cycle
+        volume = det
         element = solid(b)%first + k - 1
       end do
     end do
-  end subroutine smallest_stretch
+  end subroutine smallest_volume
+
+  !> The smallest principal stretch that is doubtful for the law of its element, the row of that
+  !> element, 0 where there is none, and the stretch that its law bears.
+  pure subroutine find_compression(solid, u, stretch, element, limit)
+    type(solid_t), intent(in) :: solid(:)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(out) :: stretch, limit
+    integer, intent(out) :: element
+    real(wp) :: least
+    integer :: b, k
+    stretch = huge(one)
+    limit = zero
+    element = 0
+    do b = 1, size(solid)
+      if (solid(b)%n == 0) cycle
+      associate (law => solid(b)%material)
+        if (.not. law%doubtful_stretch > zero) cycle
+        do k = 1, solid(b)%n
+          least = least_stretch(solid(b), k, u, law%doubtful_stretch)
+          if (least >= min(stretch, law%doubtful_stretch)) cycle
+          stretch = least
+          element = solid(b)%first + k - 1
+          limit = law%least_stretch
+        end do
+      end associate
+    end do
+  end subroutine find_compression
 
   !> Plastic work so far [F L].
   pure real(wp) function plastic_work(solid)

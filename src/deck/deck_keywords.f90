@@ -138,13 +138,18 @@ contains
     call add_card(table)
     call add_field(table, 'NSOLVR', 'I10 =1 0=d', &
         '1 small displacements, 12 finite deformation')
-    call add_nonlinear(table, 'ILIMIT', 'I10 note =11 0=d')
-    call add_nonlinear(table, 'MAXREF', 'I10 note =15 0=d')
-    call add_nonlinear(table, 'DCTOL', 'R10 note =0.001 0=d')
+    call add_field(table, 'ILIMIT', 'I10 >=0', 'with NSOLVR 12: passes that one factor '// &
+        'serves; 1 = full Newton; blank = while it converges well')
+    call add_field(table, 'MAXREF', 'I10 >=0', 'with NSOLVR 12: factors of a step at most; '// &
+        'blank = no limit')
+    call add_field(table, 'DCTOL', 'R10 >=0', 'with NSOLVR 12: largest correction over the '// &
+        'largest motion of the step; blank = 1e-11')
     call add_nonlinear(table, 'ECTOL', 'R10 note =0.01 0=d')
-    call add_nonlinear(table, 'RCTOL', 'R10 note =1.0E10 0=d')
+    call add_field(table, 'RCTOL', 'R10 >=0', 'with NSOLVR 12: what is left of the balance '// &
+        'over the largest nodal force; blank = not asked')
     call add_nonlinear(table, 'LSTOL', 'R10 note =0.9 0=d')
-    call add_nonlinear(table, 'ABSTOL', 'R10 note =1.0E-10 0=d')
+    call add_field(table, 'ABSTOL', 'R10', 'with NSOLVR 12: size of what may be left in '// &
+        'any case; blank = 0 [F]')
     call add_card(table)
     call add_nonlinear(table, 'DNORM', 'I10 note =2 0=d >=0')
     call add_nonlinear(table, 'DIVERG', 'I10 note =1 0=d')

@@ -122,7 +122,7 @@ contains
     call add_card(table)
     call add_field(table, 'FORCE', 'W10 '//choices(force_names), &
         'internal force of a step of THETA; blank = EMC')
-    call add_field(table, 'LAW', 'W10 |SVK|', 'of *MAT_ELASTIC; blank = SVK')
+    call add_field(table, 'LAW', 'W10 |SVK|HENCKY|', 'of *MAT_ELASTIC; blank = SVK')
     call add_field(table, 'QP0', 'W10 =AUTO |AUTO|0|1|', &
         'mean dilatation: as the law, none, all')
   end subroutine add_kinematics

@@ -25,6 +25,8 @@ module material_base
     logical :: is_quadratic = .false.  !< its energy is a quadratic form of Green's strain
     logical :: mean_dilatation = .false.   !< nearly incompressible, or flows without volume
     integer :: states = 0              !< history variables of a point
+    !> Principal stretches below which the law is doubtful, and below which it is refused.
+    real(wp) :: doubtful_stretch = 0.0_wp, least_stretch = 0.0_wp
     !> Which of them are the plastic work [F/L2] and the equivalent plastic strain; 0 = none.
     integer :: work_state = 0, strain_state = 0
   contains

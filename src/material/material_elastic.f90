@@ -12,7 +12,19 @@ module material_elastic
     procedure :: respond => elastic_response
   end type elastic_t
 
+  public :: new_elastic
+
 contains
+
+  !> The material from density [M/L3], E [F/L2] and nu. Under compression the nominal stress of
+  !> a bar of this law has its peak at stretch 1/sqrt(3): beyond, elements collapse.
+  pure function new_elastic(id, density, young, nu) result(material)
+    integer, intent(in) :: id
+    real(wp), intent(in) :: density, young, nu
+    type(elastic_t) :: material
+    material = elastic_t(id=id, density=density, young=young, poisson=nu, is_finite=.true., &
+        is_quadratic=.true., doubtful_stretch=0.75_wp, least_stretch=0.6_wp)
+  end function new_elastic
 
   !> St Venant and Kirchhoff: W = lambda/2 (tr E)^2 + G E:E, S = lambda tr E I + 2 G E.
   pure subroutine elastic_response(this, e, old, with_moduli, s, d, energy, new)

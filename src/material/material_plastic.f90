@@ -9,8 +9,8 @@ module material_plastic
   use base_kinds, only: wp, zero, one, two, half
   use material_base, only: leave_undefined
   use material_isotropic, only: isotropic_t
-  use material_tensor, only: component, first_index, second_index, identity, green_strain, &
-      trace, contraction, outer, circle, spectrum, frame, log_one_plus, least_determinant
+  use material_logarithm, only: stretches_t, stretches_of, into_axes, to_reference
+  use material_tensor, only: identity, contraction, outer, circle
   implicit none
   private
 
@@ -27,10 +27,7 @@ module material_plastic
 
   !> A point in the axes of its stretches.
   type :: point_t
-    real(wp) :: log_stretch(3) = zero
-    real(wp) :: c(3) = zero            !< squares of the stretches
-    real(wp) :: frame(6, 6) = zero     !< from these axes to those of space
-    real(wp) :: volume = zero          !< ln J
+    type(stretches_t) :: at
     real(wp) :: elastic(6) = zero      !< elastic strain, its deviator
     real(wp) :: flow(6) = zero         !< direction n of plastic flow, |n| = 1
     real(wp) :: step = zero            !< of the plastic strain along n
@@ -102,24 +99,20 @@ contains
     logical, intent(in) :: with_moduli
     real(wp), intent(out) :: s(6), d(6, 6), energy, new(:)
     type(point_t) :: p
-    real(wp) :: shear, bulk, strain(3), axis(3, 3), t(6)
+    real(wp) :: shear, bulk, t(6)
     new = old
-    call spectrum(green_strain(e), strain, axis)
-    p%c = one + two*strain
-    if (.not. minval(p%c) > least_determinant) then
+    p%at = stretches_of(e)
+    if (.not. p%at%exist) then
       call leave_undefined(s, d, energy)
       return
     end if
     shear = half*this%young/(one + this%poisson)
     bulk = this%young/(3.0_wp*(one - two*this%poisson))
-    p%log_stretch = half*log_one_plus(two*strain)
-    p%volume = sum(p%log_stretch)
-    p%frame = frame(axis)
     call return_to_yield(this, shear, old, new, p)
-    t = two*shear*p%elastic + bulk*p%volume*identity
-    energy = half*bulk*p%volume**2 + shear*contraction(p%elastic, p%elastic)
+    t = two*shear*p%elastic + bulk*p%at%volume*identity
+    energy = half*bulk*p%at%volume**2 + shear*contraction(p%elastic, p%elastic)
     if (with_moduli) d = consistent_moduli(p, shear, bulk)
-    call to_reference(p, t, with_moduli, s, d)
+    call to_reference(p%at, t, with_moduli, s, d)
   end subroutine plastic_response
 
   !> Radial return: trial deviator, flow along xi = s - X where |xi| exceeds the yield stress;
@@ -135,10 +128,10 @@ contains
     integer :: k, n
     n = size(old)
     alpha = old(n)
-    p%elastic = -into_axes(p%frame, old(:6))
-    p%elastic(:3) = p%elastic(:3) + p%log_stretch - p%volume/3.0_wp
+    p%elastic = -into_axes(p%at%frame, old(:6))
+    p%elastic(:3) = p%elastic(:3) + p%at%log_stretch - p%at%volume/3.0_wp
     xi = two*shear*p%elastic
-    if (this%has_back) xi = xi - into_axes(p%frame, old(7:12))
+    if (this%has_back) xi = xi - into_axes(p%at%frame, old(7:12))
     p%size = sqrt(contraction(xi, xi))
     k = count(this%start <= alpha)
     do
@@ -152,24 +145,13 @@ contains
     end do
     p%flow = xi/p%size
     p%elastic = p%elastic - p%step*p%flow
-    associate (n_space => matmul(p%frame, p%flow))
+    associate (n_space => matmul(p%at%frame, p%flow))
       new(:6) = old(:6) + p%step*n_space
       if (this%has_back) new(7:12) = old(7:12) + two/3.0_wp*this%back*p%step*n_space
     end associate
     new(n - 1) = old(n - 1) + two*shear*p%step*contraction(p%elastic, p%flow)
     new(n) = alpha + root*p%step
   end subroutine return_to_yield
-
-  !> Components in the axes of a frame: its inverse is its transpose but for the weight 2 of
-  !> shears.
-  pure function into_axes(frame, a) result(b)
-    real(wp), intent(in) :: frame(6, 6), a(6)
-    real(wp) :: b(6)
-    b = a
-    b(4:) = two*a(4:)
-    b = matmul(b, frame)
-    b(4:) = half*b(4:)
-  end function into_axes
 
   !> dT/de of the return (Simo & Hughes 1998, 3.3), in the axes of the stretches.
   pure function consistent_moduli(p, shear, bulk) result(d)
@@ -186,96 +168,5 @@ contains
         + two*shear*ratio*circle(identity)
     if (p%step > zero) d = d - two*shear*along*outer(p%flow, p%flow)
   end function consistent_moduli
-
-  !> From T, conjugate to e = (ln C)/2, to S, and d from dT/de to dS/dE, in space: with f[A,B],
-  !> f[A,B,C] the difference quotients of ln at c_A, c_B, c_C, S_AB = T_AB f[A,B], D_ABCD =
-  !> f[A,B] f[C,D] (dT/de)_ABCD + d_BD W^B_AC + d_BC W^B_AD + d_AD W^A_BC + d_AC W^A_BD, W^B_AC
-  !> = T_AC f[A,B,C] (the second derivative of the logarithm: Miehe, Apel & Lambrecht 2002).
-  pure subroutine to_reference(p, t, with_moduli, s, d)
-    type(point_t), intent(in) :: p
-    real(wp), intent(in) :: t(6)
-    logical, intent(in) :: with_moduli
-    real(wp), intent(out) :: s(6)
-    real(wp), intent(inout) :: d(6, 6)
-    real(wp) :: f(6), second(3, 3, 3), w(3, 3, 3), own(6, 6)
-    integer :: m, n, i, j, k, l
-    do m = 1, 6
-      f(m) = quotient(p%log_stretch(first_index(m)), p%log_stretch(second_index(m)))
-    end do
-    s = matmul(p%frame, f*t)
-    if (.not. with_moduli) return
-    second = second_quotients(p%c, f)
-    do k = 1, 3
-      do j = 1, 3
-        do i = 1, 3
-          w(i, k, j) = t(component(i, k))*second(i, k, j)   ! W^j_ik
-        end do
-      end do
-    end do
-    own = d*outer(f, f)
-    do n = 1, 6
-      k = first_index(n)
-      l = second_index(n)
-      do m = 1, 6
-        i = first_index(m)
-        j = second_index(m)
-        if (j == l) own(m, n) = own(m, n) + w(i, k, j)
-        if (j == k) own(m, n) = own(m, n) + w(i, l, j)
-        if (i == l) own(m, n) = own(m, n) + w(j, k, i)
-        if (i == k) own(m, n) = own(m, n) + w(j, l, i)
-      end do
-    end do
-    d = matmul(p%frame, matmul(own, transpose(p%frame)))
-  end subroutine to_reference
-
-  !> (ln c_B - ln c_A)/(c_B - c_A), whatever their gap: from x = (ln c)/2, c_B - c_A = 2
-  !> exp(x_A + x_B) sinh(x_B - x_A).
-  pure real(wp) function quotient(xa, xb)
-    real(wp), intent(in) :: xa, xb
-    real(wp) :: gap
-    gap = xb - xa
-    quotient = exp(-xa - xb)
-    if (abs(gap) > zero) quotient = quotient*(gap/sinh(gap))
-  end function quotient
-
-  !> Second difference quotients of ln at any three of c, from the first ones f (6).
-  pure function second_quotients(c, f) result(second)
-    real(wp), intent(in) :: c(3), f(6)
-    real(wp) :: second(3, 3, 3), x
-    integer :: i, j, k
-    do k = 1, 3
-      do j = 1, k
-        do i = 1, j
-          x = second_quotient(c([i, j, k]), f([component(j, k), component(k, i), &
-              component(i, j)]))
-          second(i, j, k) = x
-          second(j, i, k) = x
-          second(i, k, j) = x
-          second(k, i, j) = x
-          second(j, k, i) = x
-          second(k, j, i) = x
-        end do
-      end do
-    end do
-  end function second_quotients
-
-  !> One of them: f(m) is the first quotient of the two others of m. By the two that lie
-  !> farthest apart; where these are near, by the series about the mean, whose first term left
-  !> out is 1e-12 of the sum.
-  pure real(wp) function second_quotient(c, f)
-    real(wp), intent(in) :: c(3), f(3)
-    real(wp), parameter :: near = 1.0e-3_wp
-    real(wp) :: mean, y(3)
-    integer :: low, high
-    low = minloc(c, 1)
-    high = maxloc(c, 1)
-    mean = sum(c)/3.0_wp
-    if (c(high) - c(low) < near*mean) then
-      y = (c - mean)/mean
-      second_quotient = (-half - sum(y**2)/8.0_wp + sum(y**3)/15.0_wp)/mean**2
-    else
-      second_quotient = (f(low) - f(high))/(c(high) - c(low))
-    end if
-  end function second_quotient
 
 end module material_plastic

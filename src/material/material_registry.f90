@@ -6,7 +6,8 @@ module material_registry
   use material_base, only: material_t
   use material_blatz_foam, only: new_blatz_foam
   use material_blatz_rubber, only: new_blatz_rubber
-  use material_elastic, only: elastic_t
+  use material_elastic, only: new_elastic
+  use material_hencky, only: hencky_t
   use material_mooney, only: new_mooney
   use material_neo_hooke, only: new_neo_hooke
   use material_ogden, only: new_ogden
@@ -24,8 +25,9 @@ module material_registry
 contains
 
   !> A material of one keyword with its constants, the fields of its cards after the id; not
-  !> allocated for an unknown keyword. yield (2, points): equivalent plastic strain and yield
-  !> stress [F/L2] of a law that hardens by a curve, which then come before its constants.
+  !> allocated for an unknown keyword; 'MAT_ELASTIC HENCKY' is *MAT_ELASTIC with LAW HENCKY.
+  !> yield (2, points): equivalent plastic strain and yield stress [F/L2] of a law that hardens
+  !> by a curve, which then come before its constants.
   subroutine make_material(keyword, id, constants, material, yield)
     character(*), intent(in) :: keyword
     integer, intent(in) :: id
@@ -37,8 +39,10 @@ contains
     c(:size(constants)) = constants
     select case (keyword)
     case ('MAT_ELASTIC')
-      allocate (material, source=elastic_t(id=id, density=c(1), young=c(2), poisson=c(3), &
-          is_finite=.true., is_quadratic=.true.))
+      allocate (material, source=new_elastic(id, c(1), c(2), c(3)))
+    case ('MAT_ELASTIC HENCKY')
+      allocate (material, source=hencky_t(id=id, density=c(1), young=c(2), poisson=c(3), &
+          is_finite=.true.))
     case ('MAT_RIGID')
       allocate (material, source=rigid_material_t(id=id, density=c(1), is_rigid=.true.))
     case ('MAT_BLATZ-KO_RUBBER')

@@ -167,6 +167,15 @@ module model_data
     type(restart_request_t) :: restart
   end type requests_t
 
+  !> Newton's method in a step: what *CONTROL_IMPLICIT_SOLUTION may change.
+  type, public :: iteration_t
+    integer :: every = 0            !< ILIMIT: passes that a factor serves; 0 = by itself
+    integer :: most_factors = 0     !< MAXREF, in a step; 0 = no limit
+    real(wp) :: motion = 1.0e-11_wp !< DCTOL: largest correction over largest motion of the step
+    real(wp) :: force = 0.0_wp      !< RCTOL: what is left over the largest force; 0 = not asked
+    real(wp) :: absolute = 0.0_wp   !< ABSTOL: what may be left whatever the rest; 0 = none [F]
+  end type iteration_t
+
   type, public :: controls_t
     real(wp) :: end_time = 0.0_wp
     integer :: end_cycle = 0
@@ -198,6 +207,8 @@ module model_data
     integer :: most_halvings = 10       !< of DT0
     logical :: is_finite = .false.      !< finite deformation: NSOLVR 12
     integer :: force = 0                !< FORCE of *BIPACT_KINEMATICS, force_... of solid_block
+    logical :: is_hencky = .false.      !< LAW of *MAT_ELASTIC at finite deformation
+    type(iteration_t) :: iteration      !< at finite deformation
     integer :: mean_dilatation = -1     !< QP0: 0 none, 1 all, -1 where the law keeps its volume
     integer :: ledger_every = 0
     integer :: dump_first = 0, dump_last = 0, dump_every = 1  !< steps; 0 = no dump

@@ -32,7 +32,7 @@ module run_data
   real(wp), parameter, public :: open_balance = 1.0e-9_wp
 
   !> Kinds of warnings that a run can give (run_warnings names them).
-  integer, parameter, public :: warning_kinds = 6
+  integer, parameter, public :: warning_kinds = 7
 
   !> What this scene needs, each with its reason; what is off is not allocated and not called.
   type, public :: feature_t
@@ -128,8 +128,15 @@ module run_data
     real(wp) :: work = zero                  !< of the internal force in the step [F L]
     real(wp) :: energy = zero                !< strain energy at the end of the last step [F L]
     real(wp) :: length = zero                !< of the scene: round-off of places [L]
+    real(wp), allocatable :: load(:, :)      !< (dim, n) of b, what does not change with x [F]
+    real(wp), allocatable :: trial(:, :)     !< (dim, n) displacements [L], or forces [F]
+    real(wp) :: volume = one                 !< smallest det F at x
+    integer :: factors = 0                   !< of the step
+    !> Smallest principal stretch so far that is doubtful for the law of its element.
+    real(wp) :: stretch = huge(one)
+    integer :: compressed = 0                !< steps with one
+    integer :: compressed_element = 0        !< row
     integer :: most_passes = 30
-    real(wp) :: motion_tolerance = 1.0e-11_wp, force_tolerance = 1.0e-8_wp
     integer :: passes = 0, steps = 0         !< of the run so far
     integer :: worst = 0                     !< most passes of a step
   end type newton_t

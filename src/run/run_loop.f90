@@ -333,7 +333,7 @@ contains
       call unbalanced_work(run, work)
       run%ledger%contact%unsolved = run%ledger%contact%unsolved + work
     end if
-    if (allocated(run%newton)) call close_newton(run)
+    if (allocated(run%newton)) call close_newton(run, status)
     if (run%scheme%dissipates) run%ledger%algorithmic = run%ledger%algorithmic &
         + run%scheme%dissipation(run%system, run%state)
     if (.not. run%plan%contact) return

@@ -9,6 +9,7 @@ module run_plan
       table_sleout, table_timing, table_rbdout, step_halve, step_event
   use model_data, only: model_t, count_steps
   use run_data, only: plan_t
+  use solid_block, only: force_conserving
   implicit none
   private
   public :: make_plan, plan_line, add_feature
@@ -36,8 +37,7 @@ contains
     call add_feature(plan, 'massless', model%controls%redistribute, 'REDIST '// &
         merge('1', '0', model%controls%redistribute))
     if (model%controls%is_finite) then
-      call add_feature(plan, 'kinematics', .true., "finite deformation, Newton's method, "// &
-          'force of the step '//trim(force_names(model%controls%force)))
+      call add_feature(plan, 'kinematics', .true., 'finite deformation, '//cost_of(model))
     else
       call add_feature(plan, 'kinematics', .false., &
           'small displacements: one stiffness, factored once')
@@ -47,6 +47,28 @@ contains
     call plan_tables(model, plan)
     call plan_storage(model, plan)
   end subroutine make_plan
+
+  !> What a step at finite deformation costs, in what it is made of.
+  function cost_of(model) result(text)
+    type(model_t), intent(in) :: model
+    character(:), allocatable :: text
+    integer :: visits
+    associate (c => model%controls)
+      visits = merge(2, 1, c%force == force_conserving)
+      if (c%is_explicit) then
+        text = 'a step visits '//to_text(model%mesh%n)//' elements three times'
+        return
+      end if
+      text = "Newton's method, force of the step "//trim(force_names(c%force))//': '
+      if (c%is_static) then
+        text = text//'a load step costs 5 passes or so, each with a factor'
+      else
+        text = text//'a step costs 1 to 2 factors and 4 to 10 passes'
+      end if
+      text = text//', each pass a solve and '//to_text(visits)//' x '//to_text(model%mesh%n)// &
+          ' elements'
+    end associate
+  end function cost_of
 
   pure function damping_reason(model) result(reason)
     type(model_t), intent(in) :: model

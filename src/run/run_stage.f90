@@ -23,7 +23,7 @@ module run_stage
   use time_ledger, only: largest_work
   implicit none
   private
-  public :: solve_stage, add_contact, weigh_loads, follow
+  public :: solve_stage, add_contact, add_interface_forces, weigh_loads, follow
 
 contains
 

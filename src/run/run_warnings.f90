@@ -16,9 +16,9 @@ module run_warnings
   public :: notice_warnings, collect_messages, show_warnings, write_messages, write_kinds
 
   character(*), parameter :: kind(warning_kinds) = [character(13) :: 'energy-growth', &
-      'overlap', 'certificate', 'wedging', 'rotation', 'balance']
+      'overlap', 'certificate', 'wedging', 'rotation', 'balance', 'compression']
   integer, parameter :: growth = 1, overlap = 2, certificate = 3, wedging = 4, rotation = 5, &
-      balance = 6
+      balance = 6, compression = 7
 
 contains
 
@@ -50,6 +50,8 @@ contains
     count(wedging) = run%contact%tally%wedged
     count(rotation) = run%rotations
     count(balance) = run%open_balances
+    count(compression) = 0
+    if (allocated(run%newton)) count(compression) = run%newton%compressed
   end function counts
 
   !> The record as it stands: warnings with their last figures, notes of the contacts.
@@ -104,6 +106,11 @@ contains
         text = 'the energy balance is open by '//to_text(run%ledger%worst_residual)// &
             ' of the largest term; first beyond '//to_text(open_balance)//' at '//since// &
             ': stiff and light parts leave each other too few digits, take less unequal ones'
+      case (compression)
+        text = 'element '//to_text(run%model%mesh%id(run%newton%compressed_element))// &
+            ' was compressed to stretch '//to_text(run%newton%stretch)//'; first at '//since// &
+            ': the law of St Venant and Kirchhoff gives way there, take LAW HENCKY of '// &
+            '*BIPACT_KINEMATICS'
       end select
     end associate
   end function warning_text

@@ -81,10 +81,9 @@ contains
     do e = 1, model%mesh%n
       associate (p => model%mesh%part(e))
         if (model%mesh%is_of_type(e, 'TET4')) has_them(1, p) = .true.
-        if (any([model%mesh%is_of_type(e, 'WEDGE6'), model%mesh%is_of_type(e, 'PYRAMID5')])) &
-            has_them(2, p) = .true.
-        if (model%mesh%is_of_type(e, 'HEX8') .and. .not. keeps_volume(model, p)) &
-            has_them(2, p) = .true.
+        if (keeps_volume(model, p)) cycle
+        if (any([model%mesh%is_of_type(e, 'WEDGE6'), model%mesh%is_of_type(e, 'PYRAMID5'), &
+            model%mesh%is_of_type(e, 'HEX8')])) has_them(2, p) = .true.
       end associate
     end do
     do p = 1, size(model%part)
@@ -101,7 +100,8 @@ contains
     end do
   end subroutine warn_of_locking
 
-  !> Do the hexahedra of a part have mean dilatation by their law? So at finite deformation.
+  !> Do hexahedra, wedges and pyramids of a part have mean dilatation by their law? So at finite
+  !> deformation.
   pure logical function keeps_volume(model, p)
     type(model_t), intent(in) :: model
     integer, intent(in) :: p

@@ -2,10 +2,10 @@
 !> Finite deformation: NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, *BIPACT_KINEMATICS, and what
 !> does not go with them.
 module scene_finite
-  use base_kinds, only: zero, half
+  use base_kinds, only: wp, zero, half
   use base_strings, only: to_text
   use deck_data, only: deck_t
-  use deck_problems, only: add_warning
+  use deck_problems, only: add_warning, add_note
   use model_data, only: model_t, controls_t
   use solid_block, only: force_ends, force_middle, force_conserving
   implicit none
@@ -28,6 +28,7 @@ contains
         call deck%complain(r, 'NSOLVR', 'expected 1 (small displacements) or 12 (finite '// &
         'deformation)')
     controls%is_finite = solver == solver_finite
+    if (r > 0) call read_iteration(deck, controls, r)
     card = deck%next('BIPACT_KINEMATICS', 1, 0)
     if (.not. controls%is_finite) then
       if (card > 0) call deck%complain(card, 'FORCE', '*BIPACT_KINEMATICS is of finite '// &
@@ -37,6 +38,36 @@ contains
     call choose_force(deck, controls, card)
     call check_scheme(deck, controls, r)
   end subroutine read_kinematics
+
+  !> What the deck says of Newton's method; without it, a note.
+  subroutine read_iteration(deck, controls, r)
+    type(deck_t), intent(inout) :: deck
+    type(controls_t), intent(inout) :: controls
+    integer, intent(in) :: r
+    character(6), parameter :: fields(5) = [character(6) :: 'ILIMIT', 'MAXREF', 'DCTOL', &
+        'RCTOL', 'ABSTOL']
+    !> What others fill in where nobody asks.
+    real(wp), parameter :: filled(5) = [11.0_wp, 15.0_wp, 1.0e-3_wp, 1.0e10_wp, 1.0e-10_wp]
+    real(wp) :: value
+    integer :: k
+    if (.not. controls%is_finite) then
+      do k = 1, size(fields)
+        if (k <= 2) value = deck%integer(r, trim(fields(k)))
+        if (k > 2) value = deck%real(r, trim(fields(k)))
+        if (abs(value) > zero .and. abs(value - filled(k)) > 1.0e-6_wp*filled(k)) exit
+      end do
+      if (k <= size(fields)) call add_note(deck%problems, '*CONTROL_IMPLICIT_SOLUTION '// &
+          trim(fields(k))//' has no effect: small displacements need no iterations')
+      return
+    end if
+    associate (i => controls%iteration)
+      i%every = deck%integer(r, 'ILIMIT')
+      i%most_factors = deck%integer(r, 'MAXREF')
+      if (deck%real(r, 'DCTOL') > zero) i%motion = deck%real(r, 'DCTOL')
+      i%force = deck%real(r, 'RCTOL')
+      i%absolute = abs(deck%real(r, 'ABSTOL'))
+    end associate
+  end subroutine read_iteration
 
   !> The force of a step: EMC unless the deck or the scheme says otherwise.
   subroutine choose_force(deck, controls, card)
@@ -56,6 +87,7 @@ contains
       end select
       if (deck%is_given(card, 'FORCE') .and. .not. is_theta) call deck%complain(card, &
           'FORCE', 'FORCE is of scheme THETA of *BIPACT_TIME: leave it blank')
+      controls%is_hencky = deck%word(card, 'LAW') == 'HENCKY'
       select case (deck%word(card, 'FORCE'))
       case ('PAPER')
         controls%force = force_ends
@@ -86,8 +118,6 @@ contains
     if (.not. is_built) call deck%complain(r, 'NSOLVR', 'scheme '// &
         trim(controls%scheme)//' of *BIPACT_TIME is not available at finite deformation', &
         'take SCHEME THETA, NEWMARK for comparison, or PAOLI with PBETA 0')
-    if (controls%redistribute) call deck%complain(deck%next('BIPACT_MASS', 1, 0), 'REDIST', &
-        'massless contact nodes are not available at finite deformation')
     if (controls%mass == 'DISPERSION') call deck%complain(deck%next('BIPACT_MASS', 1, 0), &
         'TYPE', 'DISPERSION is tuned to one speed of waves, which changes with the strain', &
         'take CONSISTENT or LUMPED')
@@ -142,7 +172,8 @@ contains
           'volume; take quadrilaterals or hexahedra, which have mean dilatation')
       if (is_refused(p)) call deck%complain(model%part(p)%record, 'SECID', 'part '// &
           to_text(model%part(p)%id)//': hexahedra with incompatible modes are not '// &
-          'available at finite deformation', 'take ELFORM 1, or 2 for mean dilatation')
+          'available at finite deformation', 'under compression such modes grow without '// &
+          'strain; take ELFORM 1, or 2 for mean dilatation')
     end do
   end subroutine check_elements
 

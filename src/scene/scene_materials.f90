@@ -59,7 +59,8 @@ contains
     else if (allocated(yield)) then
       call make_material(keyword, id, constants, material, yield)
     else
-      call make_material(keyword, id, constants, material)
+      call make_material(keyword//trim(merge(' HENCKY', repeat(' ', 7), &
+          keyword == 'MAT_ELASTIC' .and. model%controls%is_hencky)), id, constants, material)
     end if
     if (.not. material%is_linear) then
       call check_finite(deck, record, keyword)

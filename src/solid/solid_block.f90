@@ -10,7 +10,6 @@
 module solid_block
   use base_kinds, only: wp, zero, one, half
   use element_base, only: element_t, most_points, most_nodes, circumference
-  use linalg_dense, only: cross
   use material_base, only: material_t
   use material_plane, only: respond_as, places_of
   use solid_mean, only: coupling_t, mean_response
@@ -46,7 +45,7 @@ module solid_block
   end type solid_t
 
   public :: make_solid, begin_step, commit_step, element_force, element_tangent, &
-      element_energy, smallest_determinant, relative
+      element_energy, relative
 
 contains
 
@@ -263,8 +262,10 @@ contains
     length = zero
     work = zero
     do g = 1, solid%points
-      length = length + solid%weight(g, k)*square_of(e1(:, g) - e0(:, g), solid)
-      work = work + solid%weight(g, k)*dot_product(s(:, g), e1(:, g) - e0(:, g))
+      associate (e => e1(:, g) - e0(:, g), w => solid%weight(g, k))
+        length = length + w*dot_product(tensor_of(e, solid), e)
+        work = work + w*dot_product(s(:, g), e)
+      end associate
     end do
     if (.not. length > least*sum(solid%weight(:, k))) return
     call respond(solid, k, e1, .false., s_end, no_moduli, energy)
@@ -279,18 +280,6 @@ contains
     type(solid_t), intent(in) :: solid
     has_quadratic_energy = solid%material%is_quadratic .and. .not. solid%is_mean
   end function has_quadratic_energy
-
-  !> E:E of a strain, whose shears are 2 E12.
-  pure real(wp) function square_of(e, solid)
-    real(wp), intent(in) :: e(:)
-    type(solid_t), intent(in) :: solid
-    integer :: shear
-    shear = merge(6, 3, solid%dim == 3)     ! the last one
-    associate (n => solid%dim)
-      square_of = dot_product(e(:n), e(:n)) + half*dot_product(e(n + 1:shear), e(n + 1:shear))
-    end associate
-    if (size(e) > shear) square_of = square_of + e(4)**2
-  end function square_of
 
   !> The components E12 in place of 2 E12.
   pure function tensor_of(e, solid) result(t)
@@ -376,31 +365,5 @@ contains
     call relative(solid, k, u, a)
     call stresses_at(solid, k, a, .false., h, s, d, energy)
   end function element_energy
-
-  !> The smallest det F at the points of element k at displacements u (dim, *); not a number
-  !> counts as minus one.
-  pure real(wp) function smallest_determinant(solid, k, u) result(least)
-    type(solid_t), intent(in) :: solid
-    integer, intent(in) :: k
-    real(wp), intent(in) :: u(:, :)
-    real(wp) :: a(solid%dim, solid%nodes), h(solid%dim, solid%columns), det
-    integer :: g, i
-    call relative(solid, k, u, a)
-    least = huge(one)
-    do g = 1, solid%points
-      call displacement_gradient(a, solid%slope(:, :, g, k), h)
-      do i = 1, solid%dim
-        h(i, i) = one + h(i, i)
-      end do
-      if (solid%dim == 2) then
-        det = h(1, 1)*h(2, 2) - h(1, 2)*h(2, 1)
-        if (solid%columns == 3) det = min(det, det*(one + h(1, 3)))
-      else
-        det = dot_product(h(:, 1), cross(h(:, 2), h(:, 3)))
-      end if
-      if (.not. det > -one) det = -one
-      least = min(least, det)
-    end do
-  end function smallest_determinant
 
 end module solid_block

@@ -104,7 +104,7 @@ def flight(name, turns, courant, force="EMC", qp0="", plane=13, form=None, schem
         mesh = Grid(8, 4, (2.0, 1.0), (-1.0, -0.5))
         v = spinning(mesh.x, spin)
     force = force if scheme.startswith("THETA") else ""
-    lines = finite(force, qp0) + body(mesh, name, plane=plane)
+    lines = finite(force, qp0, name) + body(mesh, name, plane=plane)
     lines += thrown(v, range(len(mesh.x)))
     text = deck(lines, h, turns * 2 * np.pi / spin, scheme=scheme, tables=("GLSTAT",))
     rows = table(run("flight", text), "glstat")
@@ -243,7 +243,7 @@ def thrown_block(mu, theta, courant=0.5, name="foam"):
     mesh = Grid(6, 6)
     mesh.x = mesh.x @ turn(np.radians(20.0)).T
     mesh.x[:, 1] += 0.05 - mesh.x[:, 1].min()
-    lines = finite() + body(mesh, name)
+    lines = finite(name=name) + body(mesh, name)
     lines = [x.replace("0.001,40.0", "0.001,1000.0") for x in lines]
     lines += ["*INITIAL_VELOCITY", "0,", "250.0,-300.0"]
     lines += ["*RIGIDWALL_PLANAR", "0,", "0.0,0.0,0.0,0.0,1.0,0.0,%r" % mu]

@@ -12,6 +12,7 @@ OGDEN = ((20.0, 3.0), (-1.0, -2.0))
 # Cards of each law at a scale of stress of 100, number and density left open.
 LAWS = {
     "elastic": ["*MAT_ELASTIC", "%d,%r,100.0,0.3"],
+    "hencky": ["*MAT_ELASTIC", "%d,%r,100.0,0.3"],
     "foam": ["*MAT_BLATZ-KO_FOAM", "%d,%r,40.0"],
     "rubber": ["*MAT_BLATZ-KO_RUBBER", "%d,%r,34.0"],
     "mooney": ["*MAT_MOONEY-RIVLIN_RUBBER", "%d,%r,0.49,14.0,3.0"],
@@ -26,8 +27,8 @@ LAWS = {
         "1.0,1.5,2.0",
     ],
 }
-HYPERELASTIC = tuple(LAWS)[:6]
-PLASTIC = tuple(LAWS)[6:]
+HYPERELASTIC = tuple(LAWS)[:7]
+PLASTIC = tuple(LAWS)[7:]
 FINITE = ["*CONTROL_IMPLICIT_SOLUTION", "12,"]
 
 
@@ -38,9 +39,12 @@ def law(name, number=1, density=1.0e-3):
     return lines
 
 
-def finite(force="", qp0=""):
-    """NSOLVR 12, with *BIPACT_KINEMATICS where it says something."""
-    return FINITE + (["*BIPACT_KINEMATICS", "%s,,%s" % (force, qp0)] if force or qp0 else [])
+def finite(force="", qp0="", name=""):
+    """NSOLVR 12, with *BIPACT_KINEMATICS where it says something, also of the law of a name."""
+    law = "HENCKY" if name == "hencky" else ""
+    if not force + qp0 + law:
+        return list(FINITE)
+    return FINITE + ["*BIPACT_KINEMATICS", "%s,%s,%s" % (force, law, qp0)]
 
 
 def turn(angle):
@@ -152,6 +156,9 @@ def kirchhoff(name, stretch):
     if name == "elastic":
         lam, mu, e = 100 * 0.3 / (1.3 * 0.4), 100 / 2.6, (c - 1) / 2
         return c * (lam * e.sum() + 2 * mu * e)
+    if name == "hencky":
+        h = np.log(c) / 2
+        return 100 * 0.3 / (1.3 * 0.4) * h.sum() + 100 / 1.3 * h
     if name == "foam":
         return 40.0 * (j - 1 / c)
     if name == "rubber":

@@ -38,11 +38,12 @@ contains
     real(wp), parameter :: beta(3) = [one, 0.3_wp, zero]
     character(2), parameter :: letter(3) = ['1 ', '.3', '0 ']
     integer :: k
-    allocate (cases(12))
+    allocate (cases(13))
     none = zero
     a = 0.4_wp*shear
     b = 0.1_wp*shear
     call add('elastic', 'MAT_ELASTIC', [one, young, poisson], poisson)
+    call add('hencky', 'MAT_ELASTIC HENCKY', [one, young, poisson], poisson)
     call add('rubber', 'MAT_BLATZ-KO_RUBBER', [one, shear], 0.463_wp)
     call add('foam', 'MAT_BLATZ-KO_FOAM', [one, shear], 0.25_wp)
     call add('mooney .495', 'MAT_MOONEY-RIVLIN_RUBBER', [one, 0.495_wp, a, b], 0.495_wp)

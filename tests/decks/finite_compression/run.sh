@@ -1,0 +1,3 @@
+#!/usr/bin/env bash
+# finite_compression in finite_newton.py says what must hold and why the bounds are what they are.
+exec "$PYTHON" "$ROOT/tests/decks/finite_newton.py" finite_compression
