@@ -8,7 +8,7 @@ sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
 from finite_scenes import Grid, body, finite, run, spinning, thrown, turn
 from scenes import at_most, check, finish, run_text, table, within
-from solids import deck
+from solids import Box, deck
 from space import contents
 
 LEDGER = 1.0e-10  # of the largest term: where Newton's method stops
@@ -134,6 +134,33 @@ def finite_halved():
     with open(os.path.join(folder, "bipact.log")) as log:
         check("steps halved 0" not in log.read(), "drawn aside: the log counts it")
 
+
+
+def finite_passage():
+    """A body that flies through another within a step ends the run, however far it flies: also
+    where the step is 30 or 200 times as long as the way through the other."""
+    for in_space in (False, True):
+        for far in (3.0, 30.0, 200.0):
+            lines = finite()
+            for number, low in ((1, 0.0), (2, 1.1)):
+                if in_space:
+                    mesh = Box((2, 2, 2), origin=(0.0, 0.0, low))
+                    way = (0.0, 0.0, -far)
+                else:
+                    mesh = Grid(2, 2, origin=(0.0, low))
+                    way = (0.0, -far)
+                first = 100 * number
+                lines += body(mesh, "foam", number, first)
+                if number == 2:
+                    lines += thrown([way] * len(mesh.x), range(len(mesh.x)), first)
+            kind = "CONTACT_AUTOMATIC" if in_space else "CONTACT_2D_AUTOMATIC"
+            cards = ["1,2,2,2", "0.0,"] if in_space else ["1,2,,,0.0"]
+            lines += ["*%s_SURFACE_TO_SURFACE" % kind] + cards
+            folder, code, errors = run_text("passage", deck(lines, 1.0, 2.0), "--quiet")
+            check(
+                code == 1 and "went through part" in errors and "step 1," in errors,
+                "%s %g: exit %d: %s" % ("space" if in_space else "plane", far, code, errors),
+            )
 
 
 def spin(scheme, courant, mass="LUMPED,0", force=""):
