@@ -130,9 +130,9 @@ contains
     if (allocated(run%other)) call use_operator(run, in_use)
   end subroutine factor_matrix
 
-  !> Factors for another step, interface or set of held dofs. Newton's method factors its tangent
-  !> in the first pass of each step, without the part of the stresses where it must: a pivot that
-  !> is lost before says nothing of the step.
+  !> Factors for another step, interface or set of held dofs. Newton's method factors its
+  !> tangent in the first pass of each step, without the part of the stresses where it must: a
+  !> pivot that is lost before says nothing of the step.
   subroutine renew_matrix(run, again, status)
     type(run_t), intent(inout) :: run
     logical, intent(in) :: again

@@ -161,6 +161,10 @@ def finite_passage():
                 code == 1 and "went through part" in errors and "step 1," in errors,
                 "%s %g: exit %d: %s" % ("space" if in_space else "plane", far, code, errors),
             )
+    # A body that folds through itself overlaps as two bodies do: edges cross by .028 of one.
+    with open(os.path.join(os.environ["ROOT"], "tests/decks/finite_passage/folded.k")) as file:
+        folder, code, errors = run_text("folded", file.read(), "--quiet")
+    check(code == 0 and "WARNING overlap" in errors, "folded: exit %d: %s" % (code, errors))
 
 
 def spin(scheme, courant, mass="LUMPED,0", force=""):
