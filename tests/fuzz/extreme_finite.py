@@ -55,13 +55,26 @@ HYPERELASTIC = ("elastic", "foam", "rubber", "mooney", "ogden", "neo-hooke")
 class Law:
     """A law with its numbers, stresses in units of 100."""
 
-    def __init__(self, name, nu=0.3, unit=1.0, terms=((20.0, 3.0), (-1.0, -2.0)), sigy=1.0,
-                 etan=5.0, beta=0.5):
+    def __init__(
+        self,
+        name,
+        nu=0.3,
+        unit=1.0,
+        terms=((20.0, 3.0), (-1.0, -2.0)),
+        sigy=1.0,
+        etan=5.0,
+        beta=0.5,
+    ):
         self.name, self.unit, self.terms = name, unit, terms
         self.nu = {"foam": 0.25, "rubber": 0.463}.get(name, nu)
         self.sigy, self.etan, self.beta = sigy, etan, beta
-        self.shear = {"foam": 40.0, "rubber": 34.0, "mooney": 34.0, "neo-hooke": 34.0,
-                      "ogden": sum(m * a for m, a in terms) / 2}.get(name, 50.0 / (1 + self.nu))
+        self.shear = {
+            "foam": 40.0,
+            "rubber": 34.0,
+            "mooney": 34.0,
+            "neo-hooke": 34.0,
+            "ogden": sum(m * a for m, a in terms) / 2,
+        }.get(name, 50.0 / (1 + self.nu))
         self.bulk = 2 * self.shear * (1 + self.nu) / (3 * (1 - 2 * self.nu))
 
     def cards(self, number, density):
@@ -77,15 +90,25 @@ class Law:
             return ["*MAT_HYPERELASTIC_RUBBER", first + ",%r" % n, "%r," % (17.0 * u)]
         if self.name == "ogden":
             mu, alpha = zip(*self.terms)
-            return ["*MAT_OGDEN_RUBBER", first + ",%r" % n,
-                    ",".join("%r" % (m * u) for m in mu) + ",",
-                    ",".join("%r" % a for a in alpha) + ","]
+            return [
+                "*MAT_OGDEN_RUBBER",
+                first + ",%r" % n,
+                ",".join("%r" % (m * u) for m in mu) + ",",
+                ",".join("%r" % a for a in alpha) + ",",
+            ]
         sy, et = self.sigy * u, self.etan * u
         if self.name == "plastic":
-            return ["*MAT_PLASTIC_KINEMATIC",
-                    first + ",%r,%r,%r,%r,%r" % (100.0 * u, n, sy, et, self.beta)]
-        return ["*MAT_PIECEWISE_LINEAR_PLASTICITY", first + ",%r,%r" % (100.0 * u, n), "0.0,",
-                "0.0,0.05,0.5", "%r,%r,%r" % (sy, 1.5 * sy, 1.5 * sy + 0.1 * et)]
+            return [
+                "*MAT_PLASTIC_KINEMATIC",
+                first + ",%r,%r,%r,%r,%r" % (100.0 * u, n, sy, et, self.beta),
+            ]
+        return [
+            "*MAT_PIECEWISE_LINEAR_PLASTICITY",
+            first + ",%r,%r" % (100.0 * u, n),
+            "0.0,",
+            "0.0,0.05,0.5",
+            "%r,%r,%r" % (sy, 1.5 * sy, 1.5 * sy + 0.1 * et),
+        ]
 
     def speed(self, density):
         """Of pressure waves."""
@@ -99,10 +122,11 @@ class Law:
         if self.name == "elastic":
             e = (c - np.eye(3)) / 2
             lam = self.bulk - 2 * self.shear / 3
-            w = lam / 2 * np.trace(e, axis1=-2, axis2=-1) ** 2 + self.shear * (e * e).sum((-1, -2))
+            w = lam / 2 * np.trace(e, axis1=-2, axis2=-1) ** 2 + self.shear * (e * e).sum(
+                (-1, -2)
+            )
         elif self.name == "foam":
-            w = self.shear / 2 * (
-                np.trace(np.linalg.inv(c), axis1=-2, axis2=-1) + 2 * j - 5)
+            w = self.shear / 2 * (np.trace(np.linalg.inv(c), axis1=-2, axis2=-1) + 2 * j - 5)
         elif self.name == "rubber":
             b = 2 * 0.463 / (1 - 2 * 0.463)
             w = self.shear / 2 * (i1 - 3 + 2 / b * (j**-b - 1))
@@ -132,8 +156,10 @@ def shapes(form, p):
     if form == "TRI3":
         return np.array([1 - p[0] - p[1], p[0], p[1]]), np.array([[-1.0, -1], [1, 0], [0, 1]])
     if form == "TET4":
-        return (np.array([1 - sum(p), *p]),
-                np.array([[-1.0, -1, -1], [1, 0, 0], [0, 1, 0], [0, 0, 1]]))
+        return (
+            np.array([1 - sum(p), *p]),
+            np.array([[-1.0, -1, -1], [1, 0, 0], [0, 1, 0], [0, 0, 1]]),
+        )
     if form == "QUAD4":
         s = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     else:
@@ -149,8 +175,12 @@ POINTS = {
     "TET4": [((0.25, 0.25, 0.25), 1 / 6)],
     "edges": [((0.5, 0.0), 1 / 6), ((0.5, 0.5), 1 / 6), ((0.0, 0.5), 1 / 6)],
     "QUAD4": [((ROOT3 * a, ROOT3 * b), 1.0) for a in (-1, 1) for b in (-1, 1)],
-    "HEX8": [((ROOT3 * a, ROOT3 * b, ROOT3 * c), 1.0)
-             for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)],
+    "HEX8": [
+        ((ROOT3 * a, ROOT3 * b, ROOT3 * c), 1.0)
+        for a in (-1, 1)
+        for b in (-1, 1)
+        for c in (-1, 1)
+    ],
 }
 
 
@@ -161,7 +191,7 @@ class Body:
         self.mesh, self.law, self.first, self.plane = mesh, law, first, plane
         self.density, self.number, self.form = density, number, mesh.form
         self.x = np.asarray(mesh.x, float)
-        self.elements = np.array(mesh.elements)[:, :4 if self.form == "TET4" else None]
+        self.elements = np.array(mesh.elements)[:, : 4 if self.form == "TET4" else None]
 
     def cards(self):
         x, n = self.x, self.number
@@ -170,11 +200,14 @@ class Body:
             section = ["*SECTION_SOLID", "%d,%d" % (n, FORMS[self.form])]
         else:
             lines = ["*NODE"]
-            lines += ["%d,%r,%r,0.0" % (self.first + k, *map(float, p)) for k, p in enumerate(x)]
+            lines += [
+                "%d,%r,%r,0.0" % (self.first + k, *map(float, p)) for k, p in enumerate(x)
+            ]
             lines += ["*ELEMENT_SHELL"]
             for k, e in enumerate(self.elements):
-                lines.append("%d,%d," % (self.first + k, n)
-                             + ",".join(str(self.first + i) for i in e))
+                lines.append(
+                    "%d,%d," % (self.first + k, n) + ",".join(str(self.first + i) for i in e)
+                )
             section = ["*SECTION_SHELL", "%d,%d" % (n, self.plane), "1.0"]
         lines += ["*PART", "body", "%d,%d,%d" % (n, n, n)] + section
         lines += self.law.cards(n, self.density)
@@ -193,7 +226,12 @@ class Body:
             radius = np.einsum("n,en->e", value, xe[:, :, 0])
             if self.plane == 15 and xe.shape[2] == 2:
                 weight = weight * 2 * math.pi * radius
-            yield (np.einsum("nb,eba->ena", slope, np.linalg.inv(jacobian)), weight, value, radius)
+            yield (
+                np.einsum("nb,eba->ena", slope, np.linalg.inv(jacobian)),
+                weight,
+                value,
+                radius,
+            )
 
     def masses(self):
         m = np.zeros(len(self.x))
@@ -217,7 +255,11 @@ class Body:
 
     def energy(self, u):
         f, w = self.gradients(u)
-        if self.law.name in KEEPS_VOLUME and self.form in ("QUAD4", "HEX8") and self.plane != 12:
+        if (
+            self.law.name in KEEPS_VOLUME
+            and self.form in ("QUAD4", "HEX8")
+            and self.plane != 12
+        ):
             j = np.linalg.det(f)
             theta = (w * j).sum(0) / w.sum(0)
             f = f * ((theta / j) ** (1 / 3))[..., None, None]
@@ -255,9 +297,27 @@ class Body:
 class Scene:
     """A deck and what is known of it."""
 
-    def __init__(self, bodies, lines=(), dt=1e-4, steps=20, scheme="THETA,0.5", static=False,
-                 walls=(), free=False, contact=False, force="EMC", qp0="", held=(), loads=(),
-                 mass="LUMPED,0", halve=None, every=1, smooth=True, own=False):
+    def __init__(
+        self,
+        bodies,
+        lines=(),
+        dt=1e-4,
+        steps=20,
+        scheme="THETA,0.5",
+        static=False,
+        walls=(),
+        free=False,
+        contact=False,
+        force="EMC",
+        qp0="",
+        held=(),
+        loads=(),
+        mass="LUMPED,0",
+        halve=None,
+        every=1,
+        smooth=True,
+        own=False,
+    ):
         self.bodies, self.static, self.walls = bodies, static, walls
         self.free, self.contact, self.scheme, self.force = free, contact, scheme, force
         self.held, self.loads, self.mass, self.smooth, self.own = held, loads, mass, smooth, own
@@ -276,13 +336,24 @@ class Scene:
         names = ["GLSTAT", "NODOUT"]
         names += ["RWFORC"] if walls else []
         names += ["SLEOUT"] if walls or contact else []
-        self.text = deck(out, dt, dt * steps, scheme=scheme, mass=mass, tables=names,
-                         static=static, every=every * dt)
+        self.text = deck(
+            out,
+            dt,
+            dt * steps,
+            scheme=scheme,
+            mass=mass,
+            tables=names,
+            static=static,
+            every=every * dt,
+        )
 
     @property
     def conserves(self):
-        return (self.scheme in ("THETA,0.5", "THETA,0.5,0.5") and self.force == "EMC"
-                and all(b.law.name in HYPERELASTIC for b in self.bodies))
+        return (
+            self.scheme in ("THETA,0.5", "THETA,0.5,0.5")
+            and self.force == "EMC"
+            and all(b.law.name in HYPERELASTIC for b in self.bodies)
+        )
 
 
 def power(rng, low, high):
@@ -296,10 +367,21 @@ def any_law(rng, names=None):
     nu = float(rng.choice([0.3, 0.0, 0.45, 0.49, 0.499, 0.49999]))
     if name == "mooney":
         nu = float(rng.choice([0.46, 0.49, 0.499, 0.49999]))
-    terms = [((20.0, 3.0), (-1.0, -2.0)), ((-20.0, -3.0),), ((-30.0, -2.0), (5.0, 1.3)),
-             ((0.5, 20.0),), ((-1.0, -25.0), (10.0, 2.0))][rng.integers(5)]
-    return Law(name, nu, terms=terms, sigy=power(rng, 1e-3, 10.0),
-               etan=float(rng.choice([0.0, 1e-8, 1.0, 50.0])), beta=float(rng.choice([0, 0.5, 1])))
+    terms = [
+        ((20.0, 3.0), (-1.0, -2.0)),
+        ((-20.0, -3.0),),
+        ((-30.0, -2.0), (5.0, 1.3)),
+        ((0.5, 20.0),),
+        ((-1.0, -25.0), (10.0, 2.0)),
+    ][rng.integers(5)]
+    return Law(
+        name,
+        nu,
+        terms=terms,
+        sigy=power(rng, 1e-3, 10.0),
+        etan=float(rng.choice([0.0, 1e-8, 1.0, 50.0])),
+        beta=float(rng.choice([0, 0.5, 1])),
+    )
 
 
 def step_of(rng, body, size, low=0.1, high=100.0):
@@ -324,8 +406,11 @@ def floor(mu=0.3, axis=1, y=0.0):
     n = [0.0, 0.0, 0.0]
     n[axis] = 1.0
     at = [y * c for c in n]
-    return ["*RIGIDWALL_PLANAR", "0,", ",".join("%r" % c for c in at + [a + b for a, b in
-            zip(at, n)] + [mu])]
+    return [
+        "*RIGIDWALL_PLANAR",
+        "0,",
+        ",".join("%r" % c for c in at + [a + b for a, b in zip(at, n)] + [mu]),
+    ]
 
 
 def halvings(rng):
@@ -336,14 +421,33 @@ def flight(rng):
     """Spin, stretch and shear at once, free."""
     form = str(rng.choice(["QUAD4", "TRI3"]))
     law = any_law(rng)
-    body = Body(Grid(3, 2, (1.5, 1.0), form=form, shift=float(rng.uniform(0, 0.4)),
-                     seed=int(rng.integers(1000))), law, plane=int(rng.choice([13, 13, 12])))
+    body = Body(
+        Grid(
+            3,
+            2,
+            (1.5, 1.0),
+            form=form,
+            shift=float(rng.uniform(0, 0.4)),
+            seed=int(rng.integers(1000)),
+        ),
+        law,
+        plane=int(rng.choice([13, 13, 12])),
+    )
     c = law.speed(body.density)
     pull = rng.uniform(-1, 1, (2, 2)) * power(rng, 1e-8, 3.0) * c
     v = (body.x - body.x.mean(axis=0)) @ pull.T + spinning(body.x, power(rng, 1e-6, 2.0) * c)
     scheme, force = scheme_of(rng)
-    return Scene([body], throw(body, v), step_of(rng, body, 0.5), 20, scheme, free=True,
-                 force=force, halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        throw(body, v),
+        step_of(rng, body, 0.5),
+        20,
+        scheme,
+        free=True,
+        force=force,
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def wall(rng):
@@ -358,12 +462,35 @@ def wall(rng):
     v = power(rng, 1e-6, 3.0) * c * np.array([rng.uniform(-1, 1), -1.0])
     scheme, force = scheme_of(rng)
     mu = float(rng.choice([0.0, 0.3, 1.0, 1.0]))
-    return Scene([body], throw(body, v) + floor(mu), step_of(rng, body, 1 / 3, 0.05), 25, scheme,
-                 walls=[(1, 0.0)], force=force, halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        throw(body, v) + floor(mu),
+        step_of(rng, body, 1 / 3, 0.05),
+        25,
+        scheme,
+        walls=[(1, 0.0)],
+        force=force,
+        halve=halvings(rng),
+        own=True,
+    )
 
 
-def two(rng, laws, ratio, mu, speed, courant, steps=25, scheme=("THETA,0.5", "EMC"),
-        unit=(1.0, 1.0, 1.0), sides="1,2", halve=None, plane=13, offset=0.3, discs=False):
+def two(
+    rng,
+    laws,
+    ratio,
+    mu,
+    speed,
+    courant,
+    steps=25,
+    scheme=("THETA,0.5", "EMC"),
+    unit=(1.0, 1.0, 1.0),
+    sides="1,2",
+    halve=None,
+    plane=13,
+    offset=0.3,
+    discs=False,
+):
     """Two bodies that meet; units of length, time and mass."""
     length, span, weight = unit
     stress = weight / length / span**2
@@ -381,24 +508,50 @@ def two(rng, laws, ratio, mu, speed, courant, steps=25, scheme=("THETA,0.5", "EM
     lines = throw(bodies[1], np.array([0.2, -1.0]) * speed * c)
     lines += ["*CONTACT_2D_AUTOMATIC_SURFACE_TO_SURFACE", sides + ",,,%r" % mu]
     h = float(courant * 0.3 * length / max(b.law.speed(b.density) for b in bodies))
-    scene = Scene(bodies, lines, h, steps, scheme[0], contact=True, force=scheme[1], halve=halve,
-                  smooth=mu == 0.0, own=True)
+    scene = Scene(
+        bodies,
+        lines,
+        h,
+        steps,
+        scheme[0],
+        contact=True,
+        force=scheme[1],
+        halve=halve,
+        smooth=mu == 0.0,
+        own=True,
+    )
     scene.length = length
     return scene
 
 
 def pair(rng):
-    return two(rng, [any_law(rng), any_law(rng)], 1.0, float(rng.choice([0.0, 0.3, 2.0, 1e3])),
-               power(rng, 1e-6, 3.0), power(rng, 0.05, 100.0), scheme=scheme_of(rng),
-               sides=str(rng.choice(["1,2", "2,1"])), halve=halvings(rng),
-               plane=int(rng.choice([13, 13, 12])), offset=float(rng.uniform(-0.9, 0.9)),
-               discs=bool(rng.integers(2)))
+    return two(
+        rng,
+        [any_law(rng), any_law(rng)],
+        1.0,
+        float(rng.choice([0.0, 0.3, 2.0, 1e3])),
+        power(rng, 1e-6, 3.0),
+        power(rng, 0.05, 100.0),
+        scheme=scheme_of(rng),
+        sides=str(rng.choice(["1,2", "2,1"])),
+        halve=halvings(rng),
+        plane=int(rng.choice([13, 13, 12])),
+        offset=float(rng.uniform(-0.9, 0.9)),
+        discs=bool(rng.integers(2)),
+    )
 
 
 def heavy(rng):
     """Masses and moduli of 1e6 to 1."""
-    return two(rng, [any_law(rng), any_law(rng)], power(rng, 1e-6, 1e6), 0.3,
-               power(rng, 1e-3, 0.5), power(rng, 0.05, 5.0), halve=halvings(rng))
+    return two(
+        rng,
+        [any_law(rng), any_law(rng)],
+        power(rng, 1e-6, 1e6),
+        0.3,
+        power(rng, 1e-3, 0.5),
+        power(rng, 0.05, 5.0),
+        halve=halvings(rng),
+    )
 
 
 def units(rng):
@@ -410,8 +563,18 @@ def units(rng):
     for unit in ((1.0, 1.0, 1.0), scale):
         chance = np.random.default_rng(state)
         laws = [Law(str(chance.choice(names))) for _ in range(2)]
-        made.append(two(chance, laws, 1.0, 0.3, power(chance, 1e-3, 0.3),
-                        power(chance, 0.1, 2.0), unit=unit, steps=15))
+        made.append(
+            two(
+                chance,
+                laws,
+                1.0,
+                0.3,
+                power(chance, 1e-3, 0.3),
+                power(chance, 0.1, 2.0),
+                unit=unit,
+                steps=15,
+            )
+        )
     made[1].twin = made[0]
     return made[1]
 
@@ -425,11 +588,25 @@ def thin(rng):
     c = law.speed(body.density)
     v = power(rng, 1e-4, 0.5) * c
     if rng.integers(2):
-        return Scene([body], throw(body, (0.0, -v)) + floor(0.3), step_of(rng, body, min(size)),
-                     20, walls=[(1, 0.0)], halve=halvings(rng), own=True)
+        return Scene(
+            [body],
+            throw(body, (0.0, -v)) + floor(0.3),
+            step_of(rng, body, min(size)),
+            20,
+            walls=[(1, 0.0)],
+            halve=halvings(rng),
+            own=True,
+        )
     flow = spinning(body.x, v)
-    return Scene([body], throw(body, flow), step_of(rng, body, min(size)), 20, free=True,
-                 halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        throw(body, flow),
+        step_of(rng, body, min(size)),
+        20,
+        free=True,
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def statics(rng):
@@ -443,8 +620,17 @@ def statics(rng):
     lines += node_set(2, rows) + curve(1, (0.0, 0.0), (1.0, 1.0))
     lines += ["*LOAD_NODE_SET", "2,%d,1,%r" % (axis + 1, load / len(rows))]
     held = [(r, k) for r in body.mesh.on(1, 0.0) for k in (0, 1)]
-    return Scene([body], lines, 1 / 8, 8, static=True, held=held, halve=halvings(rng),
-                 loads=[(r, axis, load / len(rows)) for r in rows], own=True)
+    return Scene(
+        [body],
+        lines,
+        1 / 8,
+        8,
+        static=True,
+        held=held,
+        halve=halvings(rng),
+        loads=[(r, axis, load / len(rows)) for r in rows],
+        own=True,
+    )
 
 
 def driven(rng):
@@ -463,9 +649,20 @@ def driven(rng):
     if plane == 15:
         lines += node_set(3, mesh.on(0, 0.0)) + ["*BOUNDARY_SPC_SET", "3,,1,0"]
         held |= {(r, 0) for r in mesh.on(0, 0.0)}
-    lines += curve(1, (0.0, 0.0), (end, way)) + ["*BOUNDARY_PRESCRIBED_MOTION_SET", "2,2,2,1,1.0"]
-    return Scene([body], lines, end / steps, steps, static=static, held=sorted(held),
-                 halve=halvings(rng), own=True)
+    lines += curve(1, (0.0, 0.0), (end, way)) + [
+        "*BOUNDARY_PRESCRIBED_MOTION_SET",
+        "2,2,2,1,1.0",
+    ]
+    return Scene(
+        [body],
+        lines,
+        end / steps,
+        steps,
+        static=static,
+        held=sorted(held),
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def weight(rng):
@@ -475,8 +672,15 @@ def weight(rng):
     g = power(rng, 1e-3, 100.0) * 1.0e5
     lines = curve(1, (0.0, 1.0), (1.0e9, 1.0)) + ["*LOAD_BODY_Y", "1,%r" % g]
     lines += floor(float(rng.choice([0.0, 0.3, 1.0])))
-    return Scene([body], lines, step_of(rng, body, 1 / 3, 0.05, 20.0), 30, walls=[(1, 0.0)],
-                 halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        lines,
+        step_of(rng, body, 1 / 3, 0.05, 20.0),
+        30,
+        walls=[(1, 0.0)],
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def folding(rng):
@@ -503,25 +707,46 @@ def folding(rng):
     v = np.zeros(body.x.shape)
     v[:, 1] = -np.sign(body.x[:, 1] - 0.3 + 1e-9) * body.x[:, 0] * power(rng, 1e-2, 2.0) * c
     lines = throw(body, v)
-    lines += ["*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE", "1,,,,%r" % float(rng.choice([0.0, 0.2, 5]))]
+    lines += [
+        "*CONTACT_2D_AUTOMATIC_SINGLE_SURFACE",
+        "1,,,,%r" % float(rng.choice([0.0, 0.2, 5])),
+    ]
     h = float(min(step_of(rng, body, 0.2, 0.05, 5.0), 0.05 / np.abs(v).max()))
-    return Scene([body], lines, h, int(rng.integers(20, 60)), contact=True, smooth=False,
-                 halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        lines,
+        h,
+        int(rng.integers(20, 60)),
+        contact=True,
+        smooth=False,
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def metal(rng):
     """Hardly any yield stress or hardening."""
-    law = Law(str(rng.choice(["plastic", "piecewise"])), float(rng.choice([0.0, 0.3, 0.49])),
-              sigy=power(rng, 1e-9, 1.0), etan=float(rng.choice([0.0, 1e-12, 1e-6, 1.0, 99.0])),
-              beta=float(rng.choice([0.0, 0.5, 1.0])))
+    law = Law(
+        str(rng.choice(["plastic", "piecewise"])),
+        float(rng.choice([0.0, 0.3, 0.49])),
+        sigy=power(rng, 1e-9, 1.0),
+        etan=float(rng.choice([0.0, 1e-12, 1e-6, 1.0, 99.0])),
+        beta=float(rng.choice([0.0, 0.5, 1.0])),
+    )
     body = Body(Grid(2, 4, (1.0, 2.0), (0.0, 0.01)), law, plane=int(rng.choice([13, 12, 15])))
     c = law.speed(body.density)
     v = (0.0, -power(rng, 1e-4, 1.0) * c)
     lines = throw(body, v) + floor(float(rng.choice([0.0, 0.5])))
     if body.plane == 15:
         lines += node_set(3, body.mesh.on(0, 0.0)) + ["*BOUNDARY_SPC_SET", "3,,1,0"]
-    return Scene([body], lines, step_of(rng, body, 0.5, 0.05, 10.0), 30, walls=[(1, 0.0)],
-                 halve=halvings(rng))
+    return Scene(
+        [body],
+        lines,
+        step_of(rng, body, 0.5, 0.05, 10.0),
+        30,
+        walls=[(1, 0.0)],
+        halve=halvings(rng),
+    )
 
 
 def ring(rng):
@@ -536,8 +761,15 @@ def ring(rng):
     lines = throw(body, v) + floor(float(rng.choice([0.0, 0.3])))
     if inner == 0.0 and rng.integers(4):
         lines += node_set(3, mesh.on(0, 0.0)) + ["*BOUNDARY_SPC_SET", "3,,1,0"]
-    return Scene([body], lines, step_of(rng, body, 1 / 3, 0.05, 20.0), 25, walls=[(1, 0.0)],
-                 halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        lines,
+        step_of(rng, body, 1 / 3, 0.05, 20.0),
+        25,
+        walls=[(1, 0.0)],
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def bent(rng):
@@ -545,12 +777,21 @@ def bent(rng):
     law = any_law(rng)
     mesh = Grid(2, 2, (2.0, 2.0), (0.0, 0.01))
     middle = mesh.on(0, 1.0)[1]
-    mesh.x[middle] += float(rng.choice([0.3, 0.45, 0.49, 0.499, 0.4999, 0.6])) * rng.choice([-1.0, 1.0], 2)
+    mesh.x[middle] += float(rng.choice([0.3, 0.45, 0.49, 0.499, 0.4999, 0.6])) * rng.choice(
+        [-1.0, 1.0], 2
+    )
     body = Body(mesh, law)
     c = law.speed(body.density)
     lines = throw(body, (0.0, -power(rng, 1e-3, 0.5) * c)) + floor(0.3)
-    return Scene([body], lines, step_of(rng, body, 0.3, 0.05, 5.0), 20, walls=[(1, 0.0)],
-                 halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        lines,
+        step_of(rng, body, 0.3, 0.05, 5.0),
+        20,
+        walls=[(1, 0.0)],
+        halve=halvings(rng),
+        own=True,
+    )
 
 
 def solid(rng):
@@ -563,19 +804,51 @@ def solid(rng):
     h = step_of(rng, body, 0.5, 0.05, 30.0)
     if kind == 0:
         lines = throw(body, (0.3 * v, 0.0, -v)) + floor(float(rng.choice([0.0, 0.5, 1.0])), 2)
-        return Scene([body], lines, h, 15, scheme[0], walls=[(2, 0.0)], force=scheme[1],
-                     halve=halve, own=True)
+        return Scene(
+            [body],
+            lines,
+            h,
+            15,
+            scheme[0],
+            walls=[(2, 0.0)],
+            force=scheme[1],
+            halve=halve,
+            own=True,
+        )
     if kind == 1:
         spin = spinning(body.x, v * np.array([0.6, 0.0, 0.8]))
-        return Scene([body], throw(body, spin), h, 15, scheme[0], free=True, force=scheme[1],
-                     halve=halve, own=True)
-    other = Body(Box((1, 1, 1), (0.6, 0.6, 0.6), form, origin=(0.2, 0.1, 1.02)), any_law(rng),
-                 101, number=2)
+        return Scene(
+            [body],
+            throw(body, spin),
+            h,
+            15,
+            scheme[0],
+            free=True,
+            force=scheme[1],
+            halve=halve,
+            own=True,
+        )
+    other = Body(
+        Box((1, 1, 1), (0.6, 0.6, 0.6), form, origin=(0.2, 0.1, 1.02)),
+        any_law(rng),
+        101,
+        number=2,
+    )
     mu = float(rng.choice([0.0, 0.3, 5.0]))
     lines = throw(other, (0.1 * v, 0.0, -v))
     lines += ["*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "1,2,2,2", "%r," % mu]
-    return Scene([body, other], lines, h, 15, scheme[0], contact=True, force=scheme[1],
-                 halve=halve, smooth=mu == 0.0, own=True)
+    return Scene(
+        [body, other],
+        lines,
+        h,
+        15,
+        scheme[0],
+        contact=True,
+        force=scheme[1],
+        halve=halve,
+        smooth=mu == 0.0,
+        own=True,
+    )
 
 
 def explicit(rng):
@@ -588,9 +861,12 @@ def explicit(rng):
     scheme = str(rng.choice(["PAOLI,,,,,,0.0", "PAOLI,,,,,,0.0", "NEWMARK,"]))
     h = step_of(rng, body, 1 / 3, 0.1, 1.5 if scheme.startswith("PAOLI") else 10.0)
     if kind:
-        return Scene([body], throw(body, spinning(body.x, v)), h, 60, scheme, free=True, own=True)
-    return Scene([body], throw(body, (0.0, -v)) + floor(0.3), h, 60, scheme, walls=[(1, 0.0)],
-                 own=True)
+        return Scene(
+            [body], throw(body, spinning(body.x, v)), h, 60, scheme, free=True, own=True
+        )
+    return Scene(
+        [body], throw(body, (0.0, -v)) + floor(0.3), h, 60, scheme, walls=[(1, 0.0)], own=True
+    )
 
 
 def pulled_apart(rng):
@@ -599,12 +875,35 @@ def pulled_apart(rng):
     body = Body(Grid(4, 2, (2.0, 1.0)), law, plane=int(rng.choice([13, 12])))
     v = (body.x - body.x.mean(axis=0)) * power(rng, 0.1, 3.0) * law.speed(body.density)
     v *= rng.choice([-1.0, 1.0], 2)
-    return Scene([body], throw(body, v), step_of(rng, body, 0.5, 0.05, 2.0), 40, free=True,
-                 halve=halvings(rng), own=True)
+    return Scene(
+        [body],
+        throw(body, v),
+        step_of(rng, body, 0.5, 0.05, 2.0),
+        40,
+        free=True,
+        halve=halvings(rng),
+        own=True,
+    )
 
 
-FAMILIES = [flight, wall, pair, heavy, units, thin, statics, driven, weight, folding, metal, ring,
-            bent, solid, explicit, pulled_apart]
+FAMILIES = [
+    flight,
+    wall,
+    pair,
+    heavy,
+    units,
+    thin,
+    statics,
+    driven,
+    weight,
+    folding,
+    metal,
+    ring,
+    bent,
+    solid,
+    explicit,
+    pulled_apart,
+]
 
 
 def scene_of(seed, number, families=FAMILIES):
@@ -623,8 +922,14 @@ def run(text, folder):
     shutil.rmtree(os.path.join(folder, "out"), ignore_errors=True)
     command = [os.environ["BIPACT"], "deck.k", "-o", "out", "--quiet"]
     try:
-        done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=LIMIT)
+        done = subprocess.run(
+            command,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            timeout=LIMIT,
+        )
         return done.returncode, done.stderr.decode("utf-8", "replace")
     except subprocess.TimeoutExpired:
         return None, ""
@@ -690,14 +995,34 @@ def judge(scene, folder, code, errors):
 
 def judge_energy(scene, rows, warned):
     faults = []
-    names = ("total", "initial", "external", "motion", "friction", "contact", "algorithmic",
-             "plastic", "kinetic", "internal")
+    names = (
+        "total",
+        "initial",
+        "external",
+        "motion",
+        "friction",
+        "contact",
+        "algorithmic",
+        "plastic",
+        "kinetic",
+        "internal",
+    )
     scale = max(max(np.abs(rows[c]).max() for c in names if c in rows), 1e-300)
     worst = np.abs(rows["residual"]).max()
     if worst > LEDGER and "balance" not in warned:
         faults.append("ledger: residual %.2e without WARNING balance" % worst)
-    signs = (("total", 1), ("initial", -1), ("external", -1), ("motion", -1), ("friction", 1),
-             ("contact", 1), ("unsolved", -1), ("algorithmic", 1), ("damping", 1), ("plastic", 1))
+    signs = (
+        ("total", 1),
+        ("initial", -1),
+        ("external", -1),
+        ("motion", -1),
+        ("friction", 1),
+        ("contact", 1),
+        ("unsolved", -1),
+        ("algorithmic", 1),
+        ("damping", 1),
+        ("plastic", 1),
+    )
     own = sum(s * rows[c] for c, s in signs if c in rows)
     if np.abs(own).max() / scale > LEDGER and "balance" not in warned:
         faults.append("ledger: its columns are open by %.2e" % (np.abs(own).max() / scale))
@@ -714,7 +1039,9 @@ def judge_energy(scene, rows, warned):
     excess = rows["total"] - rows["initial"] - rows["external"] - rows["motion"]
     if not scene.static and "energy-growth" not in warned:
         if excess.max() > GROWTH * scale:
-            faults.append("energy above its sources by %.2e, no WARNING" % (excess.max() / scale))
+            faults.append(
+                "energy above its sources by %.2e, no WARNING" % (excess.max() / scale)
+            )
         if scene.conserves and not scene.contact and not scene.walls:
             rise = (excess - np.minimum.accumulate(excess)).max()
             if rise > GROWTH * scale:
@@ -732,8 +1059,10 @@ def motions(scene, nodes):
     for b in scene.bodies:
         rows = np.searchsorted(at, list(b.ids()))
         names = "xyz"[: b.x.shape[1]]
-        pick = [np.stack([nodes[p + c].reshape(n, count)[:, rows] for c in names], axis=-1)
-                for p in ("u", "v")]
+        pick = [
+            np.stack([nodes[p + c].reshape(n, count)[:, rows] for c in names], axis=-1)
+            for p in ("u", "v")
+        ]
         out.append(pick)
     return out
 
@@ -792,7 +1121,8 @@ def judge_momenta(scene, rows, moved, warned):
             faults.append("momentum drifts by %.2e" % drift)
     exact = scene.free or (scene.contact and scene.smooth and scene.conserves)
     keeps = scene.scheme.startswith("PAOLI") or (
-        scene.scheme == "THETA,0.5" and scene.force in ("EMC", "MIDPOINT"))
+        scene.scheme == "THETA,0.5" and scene.force in ("EMC", "MIDPOINT")
+    )
     if exact and keeps and not axis and "overlap" not in warned:
         first = 1 if scene.scheme.startswith("PAOLI") else 0
         drift = np.abs(turning[first:] - turning[first]).max() / max(reach, 1e-300)
@@ -802,17 +1132,24 @@ def judge_momenta(scene, rows, moved, warned):
 
 
 def judge_strain_energy(scene, rows, moved):
-    own = np.array([sum(b.energy(u[k]) for b, (u, _) in zip(scene.bodies, moved))
-                    for k in range(len(rows["time"]))])
+    own = np.array(
+        [
+            sum(b.energy(u[k]) for b, (u, _) in zip(scene.bodies, moved))
+            for k in range(len(rows["time"]))
+        ]
+    )
     size = sum(np.ptp(b.x, axis=0).prod() * b.law.shear * b.law.unit for b in scene.bodies)
     bulk = max(b.law.bulk / b.law.shear for b in scene.bodies)
-    far = max(np.abs(u).max() / np.ptp(b.x, axis=0).min()
-              for b, (u, _) in zip(scene.bodies, moved))
+    far = max(
+        np.abs(u).max() / np.ptp(b.x, axis=0).min() for b, (u, _) in zip(scene.bodies, moved)
+    )
     digits = 1e-13 * bulk * (1 + far)
     off = np.abs(own - rows["internal"])
     k = int(np.argmax(off - ENERGY * np.abs(own)))
     if not off[k] <= ENERGY * abs(own[k]) + digits * size * (1 + far):
-        return ["row %d: strain energy %.10e, by formula %.10e" % (k, rows["internal"][k], own[k])]
+        return [
+            "row %d: strain energy %.10e, by formula %.10e" % (k, rows["internal"][k], own[k])
+        ]
     return []
 
 
@@ -836,8 +1173,9 @@ def judge_overlaps(scene, moved):
     faults = []
     for axis, level in scene.walls:
         for b, (u, _) in zip(scene.bodies, moved):
-            edge = min(np.linalg.norm(b.x[e] - b.x[np.roll(e, 1)], axis=1).min()
-                       for e in b.elements)
+            edge = min(
+                np.linalg.norm(b.x[e] - b.x[np.roll(e, 1)], axis=1).min() for e in b.elements
+            )
             deep = (level - (b.x + u)[..., axis]).max() / edge
             if deep > OVERLAP:
                 faults.append("%.2e edges below the wall, no WARNING" % deep)
@@ -858,7 +1196,7 @@ def judge_overlaps(scene, moved):
             if gone:
                 faults.append("row %d: a node went through the other body" % gone[0][0])
     else:
-        faults += judge_crossings(outlines[0][-1:])    # all is looked at now and then, and last
+        faults += judge_crossings(outlines[0][-1:])  # all is looked at now and then, and last
     return faults
 
 
@@ -875,8 +1213,13 @@ def judge_crossings(loop):
                 t1 = collide_judge.cross(d[j], a[i] - a[j])
                 t2 = collide_judge.cross(d[j], a[i] + d[i] - a[j])
                 if s1 * s2 < 0 and t1 * t2 < 0:
-                    deep = min(min(abs(s1), abs(s2)) / np.hypot(*d[i]),
-                               min(abs(t1), abs(t2)) / np.hypot(*d[j])) / length
+                    deep = (
+                        min(
+                            min(abs(s1), abs(s2)) / np.hypot(*d[i]),
+                            min(abs(t1), abs(t2)) / np.hypot(*d[j]),
+                        )
+                        / length
+                    )
                     if deep > OVERLAP:
                         return ["row %d: the outline crosses itself by %.2e edges" % (k, deep)]
     return []
@@ -937,14 +1280,17 @@ def work(task):
                 faults.append((number, name, code, took, found))
                 if keep:
                     os.makedirs(keep, exist_ok=True)
-                    shutil.copy(os.path.join(folder, "deck.k"),
-                                os.path.join(keep, "%s_%d.k" % (name, number)))
+                    shutil.copy(
+                        os.path.join(folder, "deck.k"),
+                        os.path.join(keep, "%s_%d.k" % (name, number)),
+                    )
     return codes, faults
 
 
 def main():
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--count", type=int, default=320, help="scenes (320)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
@@ -964,11 +1310,20 @@ def main():
         for name, found in some.items():
             codes.setdefault(name, []).extend(found)
     for number, name, code, took, found in sorted(faults):
-        print("FAIL seed %d scene %d, %s, exit %s, %.1f s: %s"
-              % (a.seed, number, name, code, took, "; ".join(found)))
+        print(
+            "FAIL seed %d scene %d, %s, exit %s, %.1f s: %s"
+            % (a.seed, number, name, code, took, "; ".join(found))
+        )
     for name, found in sorted(codes.items()):
-        print("%-14s %s" % (name, ", ".join(
-            "exit %s: %d" % (c, found.count(c)) for c in sorted(set(found), key=str))))
+        print(
+            "%-14s %s"
+            % (
+                name,
+                ", ".join(
+                    "exit %s: %d" % (c, found.count(c)) for c in sorted(set(found), key=str)
+                ),
+            )
+        )
     total = sum(map(len, codes.values()))
     print("%d scenes in %.0f s" % (total, time.time() - start))
     print("%d passed, %d failed" % (total - len(faults), len(faults)))
