@@ -2,10 +2,11 @@
 !> The effective matrices of a scheme with their factors. One is in use; a scheme of two stages
 !> has another beside it, and they change places by their addresses.
 module run_operator
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use assembly_system, only: effective_matrix, diagonal_matrix
   use base_kinds, only: wp, zero
   use base_messages, only: add_message
-  use base_status, only: status_t, failed, status_numerical
+  use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
@@ -181,6 +182,9 @@ contains
       else if (allocated(run%newton)) then
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
             run%matrix, run%state%u, run%x)
+        if (.not. all(ieee_is_finite(run%matrix%value))) call fail(status, status_numerical, &
+            'the tangent is not finite (NaN or Inf)', hint='take a smaller step')
+        if (failed(status)) return
       else
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
             run%matrix)
