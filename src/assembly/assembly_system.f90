@@ -3,6 +3,7 @@
 !> a time scheme, A = cM M + cC C + cL L + cK K, with C the damping of the deck and L = K of the
 !> elements that hold massless nodes.
 module assembly_system
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
   use assembly_blocks, only: element_block_t, make_blocks, assemble_stiffness, &
@@ -264,6 +265,7 @@ contains
     integer, intent(in) :: direction, node
     type(block_matrix_t), intent(inout) :: matrix
     integer :: k
+    if (ieee_is_nan(matrix%diagonal_entry(system%graph, direction, node))) return
     if (abs(matrix%diagonal_entry(system%graph, direction, node)) > zero) return
     if (allocated(matrix%diagonal)) then
       matrix%diagonal(direction, node) = one

@@ -127,7 +127,8 @@ contains
       work%u = q
       certificate%met = .false.
       call fail(status, status_numerical, 'the contact solve has numbers that are not'// &
-          ' finite (NaN or Inf), or no flexibility at all')
+          ' finite (NaN or Inf), or no flexibility at all', &
+          hint='check units, densities and the time step; take a smaller step')
       return
     end if
     if (maxval(abs(q)) <= nothing) then

@@ -481,8 +481,7 @@ contains
     if (.not. found .and. this%side(1)%is_closed .and. &
         this%side(facing_side(this, 1))%is_closed) call deepest_crossing(this%side(1), &
         this%side(facing_side(this, 1)), &
-        this%tree(facing_side(this, 1)), model%x, u, this%is_self, &
-        this%leaves_out, overlap)
+        this%tree(facing_side(this, 1)), model%x, u, this%leaves_out, overlap)
     accepted = accepted_overlap(this%side, this%penetration_tolerance, model%x, u)
   end subroutine node_measure_whole
 

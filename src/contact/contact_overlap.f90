@@ -179,8 +179,12 @@ contains
     real(wp), intent(in), contiguous :: x(:, :), u(:, :), du(:, :)
     real(wp), intent(out) :: depth
     integer, intent(out) :: edge
-    integer, parameter :: times = 8
-    real(wp) :: start, now, deep
+    !> Shares of the rest of the step; the smaller ones where the way is long.
+    integer, parameter :: times = 8, even = times - 1, halves = 10
+    integer :: i
+    real(wp), parameter :: share(even + halves) = [(real(i, wp)/times, i = 1, even), &
+        (scale(one/times, -i), i = 1, halves)]
+    real(wp) :: start, now, deep, way_2
     integer :: j, k, nearest
     logical :: is_inside
     depth = zero
@@ -188,8 +192,9 @@ contains
     do j = 1, size(list)
       start = instant_of_entry(obstacle, list(j), x, u, du, node)
       if (start > one) cycle
-      do k = 1, times - 1
-        now = start + (one - start)*k/times
+      way_2 = sum((du(:, node) - du(:, obstacle%end_node(1, list(j))))**2)
+      do k = 1, merge(size(share), even, way_2 > (times*obstacle%shortest)**2)
+        now = start + (one - start)*share(k)
         call confirm_inside(obstacle, x, u - (one - now)*du, node, [zero, zero], 0, 0, &
             is_inside, deep, nearest)
         if (.not. is_inside .or. deep <= depth) cycle

@@ -2,7 +2,7 @@
 !> True gaps and overlaps of bodies in space, in every step and of the whole: it asks the
 !> boundaries, not the rows.
 module contact_space_monitor
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   use contact_emit, only: too_deep
   use contact_fan, only: faces_fan, open_fan
   use contact_features, only: end_tolerance
@@ -184,9 +184,13 @@ contains
     type(model_t), intent(in) :: model
     real(wp), intent(in), contiguous :: u(:, :), du(:, :)
     type(overlap_t), intent(inout) :: overlap
-    integer, parameter :: times = 8
-    integer :: k, s
+    integer, parameter :: least = 8, most = 512
+    real(wp) :: way    ! in shortest edges
+    integer :: times, k, s
     if (this%is_self) return
+    way = sqrt(maxval(sum(du**2, dim=1)))/min(this%side(1)%shortest, this%side(2)%shortest)
+    times = least
+    if (way > least) times = 2*ceiling(min(way, half*most))
     do k = 1, times - 1
       associate (now => u - (one - real(k, wp)/times)*du)
         do s = 1, 2

@@ -106,13 +106,13 @@ contains
         leaves_out(surface%part(own_edge), surface%part)
   end subroutine leave_out
 
-  !> The deepest proper crossing of an edge of `own` with one of the obstacle: the sine of
-  !> their angle times the nearer end.
-  subroutine deepest_crossing(own, obstacle, tree, x, u, is_self, leaves_out, overlap)
+  !> The deepest proper crossing of an edge of `own` with one of the obstacle, also of the same
+  !> body that folds: the sine of their angle times the nearer end.
+  subroutine deepest_crossing(own, obstacle, tree, x, u, leaves_out, overlap)
     type(surface_t), intent(in) :: own, obstacle
     type(tree_t), intent(in) :: tree
     real(wp), intent(in), contiguous :: x(:, :), u(:, :)
-    logical, intent(in) :: is_self, leaves_out(:, :)
+    logical, intent(in) :: leaves_out(:, :)
     type(overlap_t), intent(inout) :: overlap
     integer, allocatable :: found(:)
     real(wp) :: a(2), b(2), depth
@@ -124,7 +124,6 @@ contains
       n = 0
       call edges_in_box(tree, min(a, b), max(a, b), found, n)
       do i = 1, n
-        if (is_self .and. own%body(e) == obstacle%body(found(i))) cycle
         if (size(leaves_out) > 0) then
           if (leaves_out(own%part(e), obstacle%part(found(i)))) cycle
         end if

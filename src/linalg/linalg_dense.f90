@@ -95,7 +95,8 @@ contains
     block%l = block%l/block%scale
     call dpotrf('L', block%n, block%l, block%n, block%lost)
     if (block%lost /= 0) call fail(status, status_numerical, 'lost pivot '// &
-        to_text(block%lost)//' in the contact block: the matrix is not positive definite')
+        to_text(block%lost)//' in the contact block: the matrix is not positive definite', &
+        hint='check mass, stiffness and time step of the bodies in contact')
   end subroutine dense_factor
 
   !> b = matrix^-1 b for one right-hand side of n entries (any shape).

@@ -21,7 +21,7 @@ module run_loop
   use run_motion, only: activate_motions, find_reactions, reaction_work
   use run_progress, only: progress_t, show_progress, clear_progress
   use run_restart, only: keep_restart, how_to_go_on
-  use run_operator, only: factor_matrix, use_operator
+  use run_operator, only: renew_matrix, use_operator
   use run_setup, only: start_dynamics
   use run_newton, only: iterates, solve_newton, close_newton
   use run_rigid, only: begin_rigid, renew_levers, carry, set_true_motion, add_rigid_works
@@ -235,7 +235,7 @@ contains
     type(status_t), intent(inout) :: status
     logical :: changed
     call activate_motions(run, t1, changed)
-    if (changed) call factor_matrix(run, .false., status)
+    if (changed) call renew_matrix(run, .false., status)
   end subroutine prepare_motions
 
   !> Coefficients of damping that change mean another effective matrix.
@@ -245,7 +245,7 @@ contains
     type(status_t), intent(inout) :: status
     logical :: changed
     call update_damping(run, t1, changed)
-    if (changed) call factor_matrix(run, .false., status)
+    if (changed) call renew_matrix(run, .false., status)
   end subroutine prepare_damping
 
   !> Lists for the step; a larger interface means another elimination order.
@@ -260,7 +260,7 @@ contains
     if (run%contact%keeps_before) call copy_rows(run%contact%rows, run%contact%before)
     if (run%step%mode == step_halve) call note_faults(run)
     if (failed(status)) call add_place(status, moment(run))
-    if (new_interface) call factor_matrix(run, .true., status)
+    if (new_interface) call renew_matrix(run, .true., status)
   end subroutine prepare_contact
 
   !> A step that has outrun its lists is solved again with longer ones.
@@ -275,7 +275,7 @@ contains
     call run%timers%enter(phase_search)
     call relist_outrun(run%model, run%contact, run%state%u, run%x, run%largest_motion, &
         run%state%v, run%scheme%h, run%state%cycle, again, new_interface, status)
-    if (new_interface) call factor_matrix(run, .true., status)
+    if (new_interface) call renew_matrix(run, .true., status)
   end subroutine look_back
 
   !> The largest motion x of a node in the step; NaN or infinity is a failure.

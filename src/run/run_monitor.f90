@@ -39,7 +39,8 @@ contains
     end if
     run%broken = .not. abs(run%ledger%total) <= huge(one)
     if (run%broken) call fail(status, status_numerical, &
-        'the energy is not finite (NaN or Inf)', place=moment(run))
+        'the energy is not finite (NaN or Inf)', place=moment(run), &
+        hint='check units and loads; take a smaller step')
     call run%timers%enter(phase_other)
   end subroutine monitor
 

@@ -2,10 +2,11 @@
 !> The effective matrices of a scheme with their factors. One is in use; a scheme of two stages
 !> has another beside it, and they change places by their addresses.
 module run_operator
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use assembly_system, only: effective_matrix, diagonal_matrix
   use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
-  use base_status, only: status_t, failed
+  use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
@@ -17,8 +18,8 @@ module run_operator
   use run_rigid, only: link_interface, keep_flexibility
   implicit none
   private
-  public :: make_operators, change_operators, factor_matrix, size_factor, use_operator, &
-      kept_nodes
+  public :: make_operators, change_operators, factor_matrix, renew_matrix, size_factor, &
+      use_operator, kept_nodes
 
 contains
 
@@ -130,6 +131,19 @@ contains
     if (allocated(run%other)) call use_operator(run, in_use)
   end subroutine factor_matrix
 
+  !> Factors for another step, interface or set of held dofs. Newton's method factors its
+  !> tangent in the first pass of each step, without the part of the stresses where it must: a
+  !> pivot that is lost before says nothing of the step.
+  subroutine renew_matrix(run, again, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    if (failed(status)) return
+    call factor_matrix(run, again, status)
+    if (.not. allocated(run%newton) .or. status%code /= status_numerical) return
+    if (.not. run%newton%is_explicit) status = status_t()
+  end subroutine renew_matrix
+
   !> Vectors of the interface nodes.
   subroutine size_interface(run)
     type(run_t), intent(inout) :: run
@@ -168,6 +182,9 @@ contains
       else if (allocated(run%newton)) then
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
             run%matrix, run%state%u, run%x)
+        if (.not. all(ieee_is_finite(run%matrix%value))) call fail(status, status_numerical, &
+            'the tangent is not finite (NaN or Inf)', hint='take a smaller step')
+        if (failed(status)) return
       else
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
             run%matrix)

@@ -23,7 +23,7 @@ module run_resume
   use run_frames, only: check_segments
   use run_motion, only: hold_active, start_reactions
   use run_restart, only: origin_t, exchange_run, list_restarts, time_told, pairs_left_out
-  use run_operator, only: factor_matrix
+  use run_operator, only: renew_matrix
   use run_setup, only: start_dynamics
   use run_step, only: exchange_step, plan_from_here
   implicit none
@@ -263,7 +263,7 @@ contains
     integer :: counts(2)
     counts = [run%factors, run%analyses]
     if (run%state%h_last > zero) call run%scheme%set_step(run%state%h_last)
-    call factor_matrix(run, .true., status)
+    call renew_matrix(run, .true., status)
     run%factors = counts(1)
     run%analyses = counts(2)
     call system_clock(run%restart_tick)

@@ -17,7 +17,7 @@ module run_step
   use run_motion, only: hold_active
   use run_damping, only: exchange_damping
   use run_newton, only: exchange_newton
-  use run_operator, only: factor_matrix
+  use run_operator, only: renew_matrix
   use time_ledger, only: exchange_ledger
   implicit none
   private
@@ -86,7 +86,7 @@ contains
       if (.not. (abs(h - run%scheme%h) > zero .or. s%new_interface)) return
       call run%scheme%set_step(h)
       if (allocated(run%newton)) run%x = zero    ! that of a refused step may be anything
-      call factor_matrix(run, s%new_interface, status)
+      call renew_matrix(run, s%new_interface, status)
       s%new_interface = .false.
     end associate
   end subroutine begin_step

@@ -8,7 +8,7 @@ sys.path.insert(0, os.path.join(os.environ["ROOT"], "tests", "support"))
 import numpy as np
 from finite_scenes import Grid, body, finite, run, spinning, thrown, turn
 from scenes import at_most, check, finish, run_text, table, within
-from solids import deck
+from solids import Box, deck
 from space import contents
 
 LEDGER = 1.0e-10  # of the largest term: where Newton's method stops
@@ -122,7 +122,49 @@ def finite_halved():
     check(two["plastic"][-1] > 0.0, "plastic work")
     for c in halved.names:
         check(c == "dt" or halved[c][-1] == two[c][-1], "restored: %s" % c)
+    # A block is drawn aside by nine times its shear modulus: where a step is halved, the tangent at
+    # its start with the part of the stresses is not positive definite. That fails no step.
+    mesh = Grid(2, 2, shift=0.1)
+    lines = finite() + body(mesh, "mooney")
+    lines = [x.replace("0.49,", "0.49999,") for x in lines]
+    lines += ["*SET_NODE_LIST", "1,", "1,2,3", "*SET_NODE_LIST", "2,", "7,8,9"]
+    lines += ["*BOUNDARY_SPC_SET", "1,,1,1", "*DEFINE_CURVE", "1,", "0.0,0.0", "1.0,1.0"]
+    lines += ["*LOAD_NODE_SET", "2,1,1,153.65", "*BIPACT_STEP", "HALVE"]
+    folder = run("drawn aside", deck(lines, 0.125, 1.0, static=True))
+    with open(os.path.join(folder, "bipact.log")) as log:
+        check("steps halved 0" not in log.read(), "drawn aside: the log counts it")
 
+
+
+def finite_passage():
+    """A body that flies through another within a step ends the run, however far it flies: also
+    where the step is 30 or 200 times as long as the way through the other."""
+    for in_space in (False, True):
+        for far in (3.0, 30.0, 200.0):
+            lines = finite()
+            for number, low in ((1, 0.0), (2, 1.1)):
+                if in_space:
+                    mesh = Box((2, 2, 2), origin=(0.0, 0.0, low))
+                    way = (0.0, 0.0, -far)
+                else:
+                    mesh = Grid(2, 2, origin=(0.0, low))
+                    way = (0.0, -far)
+                first = 100 * number
+                lines += body(mesh, "foam", number, first)
+                if number == 2:
+                    lines += thrown([way] * len(mesh.x), range(len(mesh.x)), first)
+            kind = "CONTACT_AUTOMATIC" if in_space else "CONTACT_2D_AUTOMATIC"
+            cards = ["1,2,2,2", "0.0,"] if in_space else ["1,2,,,0.0"]
+            lines += ["*%s_SURFACE_TO_SURFACE" % kind] + cards
+            folder, code, errors = run_text("passage", deck(lines, 1.0, 2.0), "--quiet")
+            check(
+                code == 1 and "went through part" in errors and "step 1," in errors,
+                "%s %g: exit %d: %s" % ("space" if in_space else "plane", far, code, errors),
+            )
+    # A body that folds through itself overlaps as two bodies do: edges cross by .028 of one.
+    with open(os.path.join(os.environ["ROOT"], "tests/decks/finite_passage/folded.k")) as file:
+        folder, code, errors = run_text("folded", file.read(), "--quiet")
+    check(code == 0 and "WARNING overlap" in errors, "folded: exit %d: %s" % (code, errors))
 
 
 def spin(scheme, courant, mass="LUMPED,0", force=""):

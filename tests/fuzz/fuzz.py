@@ -13,6 +13,7 @@ import argparse
 import multiprocessing
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -128,7 +129,13 @@ MOST_BYTES = 40000  # of a deck: runs are to be short
 def corpus(words=()):
     """{name: bytes} of the decks to damage, all small and short; those that hold a word."""
     decks = {}
-    for folder in ("tests/bad_decks", "tests/fuzz/decks", "input/cards", "input/lessons", "input/space"):
+    for folder in (
+        "tests/bad_decks",
+        "tests/fuzz/decks",
+        "input/cards",
+        "input/lessons",
+        "input/space",
+    ):
         path = os.path.join(ROOT, folder)
         for name in sorted(os.listdir(path)) if os.path.isdir(path) else ():
             if name.endswith(".k"):
@@ -188,6 +195,29 @@ def mutate_number(rng, text):
     i = rng.choice(fit)
     words[i] = rng.choice(NUMBERS).encode().rjust(len(words[i]))
     lines[k] = b" ".join(words)
+    return b"\n".join(lines)
+
+
+def mutate_scale(rng, text):
+    """A real number multiplied, for decks that still run: other speeds, steps, moduli, places."""
+    lines, k = lines_of(rng, text, lambda line: is_card(line) and b"." in line)
+    found = [
+        m for m in re.finditer(rb"-?[0-9]*\.[0-9]*(?:e-?[0-9]+)?", lines[k]) if len(m[0]) > 1
+    ]
+    if not found:
+        return text
+    word = rng.choice(found)
+    value = float(word[0]) if word[0].strip(b"-.") else 0.0
+    value = (value or rng.choice((0.1, 1.0))) * rng.choice(
+        (-1.0, 0.01, 0.3, 0.9, 2.0, 30.0, 1.0e4)
+    )
+    new = b"%.3g" % value
+    if b"." not in new and b"e" not in new:
+        new += b"."
+    before, more = lines[k][: word.start()], len(new) - len(word[0])
+    if more > 0 and not before[-more:].strip():
+        before = before[:-more]
+    lines[k] = before + new.rjust(len(word[0])) + lines[k][word.end() :]
     return b"\n".join(lines)
 
 
@@ -381,6 +411,8 @@ MUTATIONS = (
     mutate_field,
     mutate_number,
     mutate_number,
+    mutate_scale,
+    mutate_scale,
     mutate_cards,
     mutate_cards,
     mutate_keyword,
@@ -492,7 +524,9 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--keep", metavar="DIR", help="keep the decks that fail")
-    parser.add_argument("--decks", nargs="+", default=(), metavar="WORD", help="those with a word")
+    parser.add_argument(
+        "--decks", nargs="+", default=(), metavar="WORD", help="those with a word"
+    )
     a = parser.parse_args()
     program = os.path.abspath(os.environ.get("BIPACT", os.path.join(ROOT, "bin", "bipact")))
     listed = subprocess.run([program, "--keywords"], stdout=subprocess.PIPE).stdout
