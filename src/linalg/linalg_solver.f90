@@ -38,7 +38,7 @@ module linalg_solver
     integer(i8) :: factor_bytes = 0_i8
     integer :: null_pivots = 0
     integer(i8) :: iterations = 0_i8       !< of all solves so far, where an engine iterates
-    integer :: unconverged = 0             !< solves since the last factor that did not get there
+    integer :: unconverged = 0             !< solves since the factor that did not get there
   end type solver_info_t
 
   type, abstract, public :: solver_t

@@ -7,20 +7,22 @@
 !> as it serves, for an old A costs passes and no accuracy.
 module run_newton
   use assembly_damping, only: subtract_damping_force
-  use assembly_solid, only: begin_solids, commit_solids, subtract_solid_force, &
-      subtract_tangent_product, smallest_volume, find_compression, exchange_solids, plastic_work
+  use assembly_solid, only: add_solid_energy, begin_solids, commit_solids, &
+      subtract_solid_force, subtract_tangent_product, smallest_volume, find_compression, &
+      exchange_solids, plastic_work
   use assembly_system, only: clear_fixed, set_fixed, multiply_mass
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use base_timers, only: phase_product, phase_solve
+  use material_base, only: has_value, plane_stress
   use run_damping, only: subtract_damping
   use run_data, only: run_t
   use run_operator, only: factor_matrix, kept_nodes
   use run_motion, only: find_given
   use run_static, only: add_shift
-  use solid_block, only: force_rule_t, force_ends
+  use solid_block, only: force_rule_t, force_ends, force_middle
   use run_stage, only: add_contact, add_interface_forces, weigh_loads, follow
   use time_ledger, only: find_strain_energies
   implicit none
@@ -95,7 +97,7 @@ contains
       run%newton%worst = max(run%newton%worst, pass)
     end do
     run%contact%keeps_rows = .false.
-    call check_compression(run, is_done, run%state%u + run%x, status)
+    if (is_done) call check_end(run, status)
     if (failed(status)) return
     call count_work(run)
     if (.not. is_done) call refuse_passes(run, change, status)
@@ -386,16 +388,38 @@ contains
         hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
   end subroutine refuse_inversion
 
+  !> The end of a step that has converged: has each law a value there, and does it hold? The
+  !> force of the middle has not asked, nor a quadratic energy in plane stress.
+  subroutine check_end(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    real(wp) :: energy
+    integer :: b
+    if (failed(status)) return
+    run%newton%trial = run%state%u + run%x
+    energy = zero
+    do b = 1, size(run%system%solid)
+      associate (s => run%system%solid(b))
+        if (s%n == 0) cycle
+        if (s%plane == plane_stress .or. run%system%force_rule%kind == force_middle) &
+            call add_solid_energy(s, run%newton%trial, energy)
+      end associate
+    end do
+    if (.not. has_value(energy)) call fail(status, status_numerical, &
+        'a law has no value at the end of the step: an element is pressed or drawn too far', &
+        hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
+    call check_compression(run, run%newton%trial, status)
+  end subroutine check_end
+
   !> A law that gives way under compression fails below its least stretch at the displacements
   !> u of an end of a step, and is warned of before.
-  subroutine check_compression(run, is_end, u, status)
+  subroutine check_compression(run, u, status)
     type(run_t), intent(inout) :: run
-    logical, intent(in) :: is_end
     real(wp), intent(in) :: u(:, :)
     type(status_t), intent(inout) :: status
     real(wp) :: stretch, limit
     integer :: element
-    if (failed(status) .or. .not. is_end) return
+    if (failed(status)) return
     call find_compression(run%system%solid, u, stretch, element, limit)
     if (element == 0) return
     if (stretch < limit) then
@@ -441,7 +465,7 @@ contains
     if (failed(status)) return
     call smallest_volume(run%system%solid, run%state%u, volume, element)
     if (.not. volume > zero) call refuse_inversion(run, element, status)
-    call check_compression(run, .true., run%state%u, status)
+    call check_compression(run, run%state%u, status)
   end subroutine check_shapes
 
   !> Saves to or restores from the archive what a step changes: histories, counts.

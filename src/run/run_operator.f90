@@ -235,8 +235,8 @@ contains
 
   !> Is a factor in each step dearer than conjugate gradients with a solve for each contact dof?
   !> Where the mass makes a good part of the diagonal (steps of three crossing times of an
-  !> element or less) these take about 4/sqrt(share) iterations, whatever the mesh. Rates in Gflop/s are
-  !> those of one core with the reference BLAS (doc/performance.md).
+  !> element or less) these take about 4/sqrt(share) iterations, whatever the mesh. Rates in
+  !> Gflop/s are those of one core with the reference BLAS (doc/performance.md).
   logical function suits_iteration(run)
     type(run_t), intent(in) :: run
     real(wp), parameter :: least_share = 0.05_wp, rate_factor = 2.5_wp, rate_iteration = 0.8_wp
