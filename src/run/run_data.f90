@@ -141,10 +141,21 @@ module run_data
     integer :: worst = 0                     !< most passes of a step
   end type newton_t
 
+  !> What a run will need (run_forecast).
+  type, public :: forecast_t
+    real(wp) :: rate = zero              !< Gflop/s of a loop in the cache
+    integer(i8) :: bytes = 0_i8          !< largest memory of the run
+    real(wp) :: start = zero             !< [s] up to the first step, from now on
+    real(wp) :: step = zero              !< [s] of a step
+    real(wp) :: whole = zero             !< [s] of the run, from now on
+    real(wp) :: cpu = zero               !< [s] of the processor when it was made
+  end type forecast_t
+
   type, public :: run_t
     type(deck_t) :: deck
     type(model_t) :: model
     type(plan_t) :: plan
+    type(forecast_t) :: forecast
     type(cone_options_t) :: cone
     type(solver_options_t) :: solver_options
     type(state_t) :: state

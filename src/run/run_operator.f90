@@ -167,15 +167,15 @@ contains
     type(status_t), intent(inout) :: status
     if (failed(status)) return
     call size_interface(run)
+    if (allocated(run%newton)) call assemble_stage(run, 1, status)    ! AUTO looks at it
     call analyse_matrix(run, status)
   end subroutine size_factor
 
-  subroutine factor_stage(run, number, again, status)
+  !> The effective matrix of a stage as the run stands.
+  subroutine assemble_stage(run, number, status)
     type(run_t), intent(inout) :: run
     integer, intent(in) :: number
-    logical, intent(in) :: again
     type(status_t), intent(inout) :: status
-    integer :: m
     associate (stage => run%scheme%stage(number))
       if (run%solver%takes_diagonal) then
         call diagonal_matrix(run%system, stage%c_m, run%matrix)
@@ -191,6 +191,16 @@ contains
       end if
     end associate
     if (allocated(run%shift)) call shift_matrix(run)
+  end subroutine assemble_stage
+
+  subroutine factor_stage(run, number, again, status)
+    type(run_t), intent(inout) :: run
+    integer, intent(in) :: number
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    integer :: m
+    call assemble_stage(run, number, status)
+    if (failed(status)) return
     if (again) then
       call analyse_matrix(run, status)
       if (failed(status)) return

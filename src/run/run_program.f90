@@ -21,6 +21,7 @@ module run_program
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
   use run_data, only: run_t
+  use run_forecast, only: make_forecast, write_forecast
   use run_frames, only: start_frames, end_segment, remove_segments
   use run_loop, only: go_through_steps
   use run_report, only: open_log, close_log, write_plan, write_solver
@@ -110,8 +111,11 @@ contains
     if (arguments%plan) call size_solver(run, status)
     if (arguments%plan .or. arguments%check) then
       call tell_scene(arguments, run)
-      if (arguments%plan .and. .not. (run%quiet .or. failed(status))) &
-          call write_solver(run%solver, output_unit)
+      if (arguments%plan .and. .not. (run%quiet .or. failed(status))) then
+        call write_solver(run%solver, output_unit)
+        call make_forecast(run, .false., run%forecast)
+        call write_forecast(run%forecast, output_unit)
+      end if
       return
     end if
     call set_up(run, status)
@@ -208,6 +212,8 @@ contains
     call clear_storage(run)
     call run%timers%enter(phase_other)
     call watch_signals(run%plan%restarts .and. run%model%requests%restart%on_signal)
+    call make_forecast(run, .true., run%forecast)
+    call write_forecast(run%forecast, run%log_unit)
     call go_through_steps(run, status)
     call run%timers%enter(phase_output)
     call close_tables(run%tables, ending_of(status), run%state%cycle, closing)

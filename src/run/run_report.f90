@@ -16,6 +16,7 @@ module run_report
   use linalg_solver, only: solver_t, work_of, inverse_bytes
   use output_tables, only: flows
   use run_data, only: run_t
+  use run_forecast, only: write_comparison
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
   use run_warnings, only: collect_messages, show_warnings, write_messages, write_kinds
@@ -125,6 +126,8 @@ contains
     call write_messages(run, run%log_unit)
     if (failed(ending)) write (run%log_unit, '(a)') 'FAILED '//status_text(ending)
     call write_summary(run, totals, run%log_unit)
+    call write_comparison(run%forecast, totals%peak_memory, totals%cpu - run%forecast%cpu, &
+        run%log_unit)
     call write_phases(run, run%log_unit)
     call close_text(join_path(run%folder, 'bipact.log'), run%log_unit, ending)
     call write_run_summary(run, totals, ending)
