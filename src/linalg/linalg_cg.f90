@@ -51,8 +51,8 @@ contains
     integer(i8) :: m
     if (checks_on) call check_graph(graph, last, 'cg_analyse')
     if (this%options%null_pivot > zero) then
-      call fail(status, status_deck, 'ENGINE CG of *BIPACT_SOLVER needs bodies that are held '// &
-          'or have mass', hint='take ENGINE AUTO')
+      call fail(status, status_deck, 'ENGINE CG of *BIPACT_SOLVER needs bodies that are '// &
+          'held or have mass', hint='take ENGINE AUTO')
       return
     end if
     this%n = graph%n

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Incomplete factor of a symmetric matrix of node blocks, A ~ L D L' with the pattern of A and
-!> nothing beside it (Meijerink & van der Vorst 1977), and products with A. Blocks are d x d; the
-!> kernels are called with d = 2 and d = 3 as constants, of which the compiler makes two of each.
+!> nothing beside it (Meijerink & van der Vorst 1977), and products with A. Blocks are d x d;
+!> the kernels are called with d = 2 and 3 as constants: the compiler makes two of each.
 module linalg_incomplete
   use base_kinds, only: wp, zero, one
   use linalg_graph, only: graph_t, block_matrix_t
@@ -114,8 +114,8 @@ contains
     end do
   end subroutine eliminate
 
-  !> Inverse of a pivot block by its factor C E C', without roots, so that other units by a power
-  !> of two change no digit; lost = 1 where it is not positive definite.
+  !> Inverse of a pivot block by its factor C E C', without roots, so that other units by a
+  !> power of two change no digit; lost = 1 where it is not positive definite.
   pure subroutine invert(d, a, inverse, lost)
     integer, intent(in) :: d
     real(wp), intent(in) :: a(d, d)

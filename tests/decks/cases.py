@@ -339,6 +339,9 @@ def engines():
             / np.abs(base["ux"]).max()
         )
         at_most(off, 1.0e-9, "%s %s" % (engine, order_name))
+    card = "*BIPACT_SOLVER\nCG,,,,,1\n*END"
+    other, code, errors = run_text("few", text.replace("*END", card))
+    check(code == 1 and "not converged in 1 iterations" in errors, "CGMAX 1: " + errors)
 
 
 def idle():
@@ -423,6 +426,14 @@ def commands():
     with open(os.path.join(folder, "bipact.log"), encoding="utf-8") as file:
         log = file.read()
     check("\n".join(needs) in log, "--plan says what the run needs")
+    # Counts decide the memory; a factor 4 allows for a machine that measures its rate badly.
+    forecast = r"forecast: memory (\d+) MB, start \S+ s, a step (\S+) s, the run (\S+) s at"
+    memory, step, whole = map(float, re.search(forecast, out).groups())
+    was = re.search(r"peak memory (\d+) kB", log)
+    within(1.0e3 * memory / float(was[1]), 0.7, 1.4, "--plan: memory over that of the run")
+    steps = table(folder, "glstat")["cycle"][-1]
+    within(whole / (step * steps), 0.9, 1.5, "--plan: the run is its steps")
+    check("forecast of the steps: " in log, "the log has what was forecast and what was")
     code, errors, _ = scenes.bipact(
         plain, os.path.join(scenes.TMP, "v2"), "--quiet", "-D", "v0=2.0"
     )
