@@ -86,7 +86,8 @@ contains
     call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
     call add_field(table, 'CGTOL', 'R10 fixed')
     call add_field(table, 'CGMAX', 'I10 fixed')
-    call add_field(table, 'THREADS', 'I10 =1 fixed')
+    call add_field(table, 'THREADS', 'I10 =1 >0 <=1024', &
+        'threads of factor, solves and element loops')
     call add_keyword(table, 'BIPACT_LEDGER', 'energy ledger', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'EVERY', 'I10 =0 >=0', 'steps between evaluations; 0 = with GLSTAT')

@@ -396,6 +396,7 @@ contains
     solver%engine = deck%word(r, 'ENGINE')
     solver%order = deck%word(r, 'ORDER')
     solver%block_limit = deck%integer(r, 'NLAST')
+    solver%threads = deck%integer(r, 'THREADS')
     call check_engine(deck, controls, solver, r)
   end subroutine read_solver_options
 
