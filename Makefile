@@ -211,6 +211,12 @@ ifndef OPENMP_LIBS
 OPENMP_LIBS := $(if $(OPENMP),$(or $(call archive,gomp),-lgomp))
 endif
 
+$(call object,$(threaded)): $(B)/openmp
+$(B)/openmp: FORCE
+	@mkdir -p $(@D)
+	@echo '$(OPENMP)' >$@.new
+	@$(refresh)
+
 define compile
 @mkdir -p $(@D) $(B)/mod
 @echo "  FC   $<"
@@ -243,7 +249,7 @@ test-programs: $(programs)
 bench-programs: $(bench-programs)
 
 # linear_solvers puts a clock around parallel regions.
-$(B)/bench/linear_solvers: LDFLAGS += $(foreach name,parallel loop_nonmonotonic_dynamic_start \
+$(B)/bench/linear_solvers: private LDFLAGS += $(foreach name,parallel loop_nonmonotonic_dynamic_start \
   loop_nonmonotonic_dynamic_next,-Wl,--wrap=GOMP_$(name))
 $(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
@@ -254,7 +260,7 @@ $(example-programs): $(B)/examples/%: $(B)/obj/%.o $(LIB) $(B)/flags
 	$(link)
 
 # test_allocations puts itself between the program and the library of C.
-$(B)/tests/test_allocations: LDFLAGS += -Wl,--wrap=malloc -Wl,--wrap=realloc
+$(B)/tests/test_allocations: private LDFLAGS += -Wl,--wrap=malloc -Wl,--wrap=realloc
 $(programs): $(B)/tests/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
 

@@ -49,7 +49,7 @@ program linear_solvers
     print '(a)', status_text(status)
     stop 1
   end if
-  repeats = max(3, int(2.0e8_wp/(real(solver%info%factor_bytes, wp) + 1.0_wp)))
+  repeats = max(10, int(2.0e8_wp/(real(solver%info%factor_bytes, wp) + 1.0_wp)))
   call solve_whole(solver, b, x)
   passes = huge(passes)
   do k = 1, repeats

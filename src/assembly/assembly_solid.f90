@@ -103,7 +103,8 @@ contains
     integer :: b, k, i
     total = zero
     do b = 1, size(solid)
-      if (is_worth_threads(threads, solid(b)%n, solid(b)%dim*solid(b)%nodes, work_of_point)) then
+      if (is_worth_threads(threads, solid(b)%n, solid(b)%dim*solid(b)%nodes, &
+          work_of_point)) then
         call subtract_solid_forces(threads, solid(b), rule, factor, u0, x, f, total)
         cycle
       end if

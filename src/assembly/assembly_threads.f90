@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Loops over the elements of a block by several threads: each takes a few elements at a time,
-!> and what they add to the nodes is added in the order of the elements, so that no digit depends
-!> on the number of threads.
+!> and what they add to the nodes is added in the order of the elements, as with one thread: no
+!> digit depends on the number of threads.
 module assembly_threads
   use base_kinds, only: wp, zero
   use linalg_graph, only: graph_t, block_matrix_t

@@ -5,10 +5,10 @@
 !> Node blocks need one index per d^2 reals and no square root. The loops over blocks are in
 !> `linalg_kernels_2` and `_3`, chosen outside of them by d: their arrays have constant bounds,
 !> which one interface of both could not have.
-!> In large scenes the order is changed to another of the same factor, in which parts of the tree
-!> that do not depend on each other come first, one after the other, then the top. In the passes
-!> the parts are for several threads, each with sums of its own for the rows of the top, added in
-!> the order of the parts, whatever the number of threads.
+!> In large scenes the order is changed to another of the same factor, in which parts of the
+!> tree that do not depend on each other come first, one after the other, then the top. In the
+!> passes the parts are for several threads, each with sums of its own for the rows of the top,
+!> added in the order of the parts, whatever the number of threads.
 module linalg_ldlt
   use base_checks, only: checks_on, assert
   use base_kinds, only: wp, i8, zero
@@ -224,8 +224,8 @@ contains
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: b_interface(:, :)
     if (checks_on) call check_vectors(this, b, b_interface, 'ldlt_forward')
-    call to_order(this, 1, this%n, b)
-    if (this%parts%n > 0) call forward_parts(this)
+    call to_order(this, this%base + 1, this%n, b)
+    if (this%parts%n > 0) call forward_parts(this, b)
     if (this%d == 2) then
       call forward_2(this%base + 1, this%leading, this%n, this%first, this%row, this%l, &
           this%d_inverse, this%work)
@@ -273,17 +273,18 @@ contains
   end subroutine from_order
 
   !> The parts of the tree, then their sums to the rows of the top.
-  subroutine forward_parts(this)
+  subroutine forward_parts(this, b)
     class(ldlt_t), intent(inout) :: this
+    real(wp), intent(in) :: b(:, :)
     integer :: k
     if (this%options%threads > 1) then
       !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads)
       do k = 1, this%parts%n
-        call forward_part(this, this%parts%by_cost(k))
+        call forward_part(this, this%parts%by_cost(k), b)
       end do
     else
       do k = 1, this%parts%n
-        call forward_part(this, k)
+        call forward_part(this, k, b)
       end do
     end if
     do k = 1, this%parts%n
@@ -291,9 +292,11 @@ contains
     end do
   end subroutine forward_parts
 
-  subroutine forward_part(this, t)
+  subroutine forward_part(this, t, b)
     class(ldlt_t), intent(inout) :: this
     integer, intent(in) :: t
+    real(wp), intent(in) :: b(:, :)
+    call to_order(this, this%parts%first(t), this%parts%last(t), b)
     this%outside(:, :, t) = zero
     if (this%d == 2) then
       call forward_part_2(this%parts%first(t), this%parts%last(t), this%n, this%base, &
@@ -312,29 +315,32 @@ contains
     integer :: k
     if (checks_on) call check_vectors(this, x, x_interface, 'ldlt_backward')
     this%work(:, this%leading + 1:this%n) = x_interface
-    call backward_columns(this, this%base + 1, this%leading)
+    call backward_columns(this, this%base + 1, this%leading, x)
     if (this%parts%n == 0) then
       continue
     else if (this%options%threads > 1) then
       !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads)
       do k = 1, this%parts%n
         call backward_columns(this, this%parts%first(this%parts%by_cost(k)), &
-            this%parts%last(this%parts%by_cost(k)))
+            this%parts%last(this%parts%by_cost(k)), x)
       end do
     else
-      call backward_columns(this, 1, this%base)
+      call backward_columns(this, 1, this%base, x)
     end if
-    call from_order(this, 1, this%n, x)
+    call from_order(this, this%leading + 1, this%n, x)
   end subroutine ldlt_backward
 
-  subroutine backward_columns(this, first, last)
+  !> The columns first..last, and x of their nodes.
+  subroutine backward_columns(this, first, last, x)
     class(ldlt_t), intent(inout) :: this
     integer, intent(in) :: first, last
+    real(wp), intent(inout) :: x(:, :)
     if (this%d == 2) then
       call backward_2(first, last, this%n, this%first, this%row, this%l, this%work)
     else
       call backward_3(first, last, this%n, this%first, this%row, this%l, this%work)
     end if
+    call from_order(this, first, last, x)
   end subroutine backward_columns
 
 end module linalg_ldlt

@@ -10,7 +10,7 @@ module linalg_panels
   implicit none
   private
   public :: eliminate_panel, forward_panel, backward_panel, forward_split, backward_split, &
-      is_wide, gather_rows, add_rows
+      is_wide, gather_rows, add_rows, list_places, add_columns
 
   !> A tile of L: so many rows and columns, 64 kB. Up to `narrow` columns are eliminated singly.
   integer, parameter :: tile_rows = 128, tile_columns = 64, narrow = 8
@@ -391,5 +391,34 @@ contains
       x(:, row(k)) = x(:, row(k)) + y(:, k)
     end do
   end subroutine add_rows
+
+  !> The place of each unknown of some nodes.
+  pure subroutine list_places(d, node, place, to)
+    integer, intent(in) :: d
+    integer, intent(in) :: node(:), place(:)
+    integer, allocatable, intent(out) :: to(:)
+    integer :: k, i
+    allocate (to(d*size(node)))
+    do k = 1, size(node)
+      do i = 1, d
+        to(d*(k - 1) + i) = place(node(k)) + i
+      end do
+    end do
+  end subroutine list_places
+
+  !> Adds columns first..last of the lower triangle of a to b; row i of a is row to(i) of b.
+  pure subroutine add_columns(n, a, first, last, to, height, b)
+    integer, intent(in) :: n, first, last, height
+    real(wp), intent(in) :: a(n, n)
+    integer, intent(in) :: to(n)
+    real(wp), intent(inout) :: b(height, *)
+    integer :: i, j, column
+    do j = first, last
+      column = to(j)
+      do i = j, n
+        b(to(i), column) = b(to(i), column) + a(i, j)
+      end do
+    end do
+  end subroutine add_columns
 
 end module linalg_panels

@@ -18,7 +18,7 @@ module linalg_subtrees
   end type subtrees_t
 
   !> Largest share of the cost in one part: smaller ones leave more for the top.
-  real(wp), parameter :: grain = 0.06_wp
+  real(wp), parameter :: grain = 0.09_wp
   !> Share of that below which a part is left to the top.
   real(wp), parameter :: crumb = 0.03_wp
 

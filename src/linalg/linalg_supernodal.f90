@@ -14,7 +14,7 @@ module linalg_supernodal
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_order, only: choose_order
   use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, forward_split, &
-      backward_split, is_wide, gather_rows, add_rows
+      backward_split, is_wide, gather_rows, add_rows, list_places, add_columns
   use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
   use linalg_subtrees, only: subtrees_t, find_subtrees
   use linalg_supernodes, only: supernodes_t, find_supernodes, find_parents
@@ -320,116 +320,109 @@ contains
     end associate
   end subroutine give_last
 
-  !> The place of each unknown of some nodes.
-  pure subroutine list_places(d, node, place, to)
-    integer, intent(in) :: d
-    integer, intent(in) :: node(:), place(:)
-    integer, allocatable, intent(out) :: to(:)
-    integer :: k, i
-    allocate (to(d*size(node)))
-    do k = 1, size(node)
-      do i = 1, d
-        to(d*(k - 1) + i) = place(node(k)) + i
-      end do
-    end do
-  end subroutine list_places
-
-  !> Adds columns first..last of the lower triangle of a to b; row i of a is row to(i) of b.
-  pure subroutine add_columns(n, a, first, last, to, height, b)
-    integer, intent(in) :: n, first, last, height
-    real(wp), intent(in) :: a(n, n)
-    integer, intent(in) :: to(n)
-    real(wp), intent(inout) :: b(height, *)
-    integer :: i, j, column
-    do j = first, last
-      column = to(j)
-      do i = j, n
-        b(to(i), column) = b(to(i), column) + a(i, j)
-      end do
-    end do
-  end subroutine add_columns
-
   !> y = L^-1 b panel by panel; then its leading part is divided by the scale.
   subroutine supernodal_forward(this, b, b_interface)
     class(supernodal_t), intent(inout) :: this
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: b_interface(:, :)
-    integer :: s, k, t
+    integer :: s, k
     if (checks_on) call check_vectors(this, b, b_interface, 'supernodal_forward')
-    do k = 1, this%n
-      this%work(:, k) = b(:, this%order(k))
-    end do
     if (this%parts%n == 0) then
+      call take_nodes(this, 1, this%n, b)
       do s = 1, this%supernodes%n
-        call forward_one(this, s, this%y(:, 1))
+        call forward_one(this, s, 1, this%y(:, 1))
       end do
     else
-      !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads) private(t)
+      !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads)
       do k = 1, this%parts%n
-        t = this%parts%by_cost(k)
-        call forward_part(this, t, this%y(:, t))
+        call forward_part(this, this%parts%by_cost(k), b)
       end do
-      call forward_top(this)
+      call forward_top(this, b)
     end if
-    this%work(:, :this%leading) = this%work(:, :this%leading)/this%scale
     b_interface = this%work(:, this%leading + 1:)
   end subroutine supernodal_forward
 
-  subroutine forward_one(this, s, y)
+  !> The right-hand side of the nodes first..last of the order.
+  pure subroutine take_nodes(this, first, last, b)
     class(supernodal_t), intent(inout) :: this
-    integer, intent(in) :: s
+    integer, intent(in) :: first, last
+    real(wp), intent(in) :: b(:, :)
+    integer :: k
+    do k = first, last
+      this%work(:, k) = b(:, this%order(k))
+    end do
+  end subroutine take_nodes
+
+  !> One supernode, all that it changes.
+  subroutine forward_one(this, s, threads, y)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: s, threads
     real(wp), contiguous, intent(inout) :: y(:)
-    integer :: n, width, height
+    integer :: n
     associate (p => this%supernodes)
-      call sizes(this, s, width, height)
-      call forward_panel(width, height - width, this%l(this%panel(s)), &
-          this%work(1, p%first(s)), y)
+      call forward_own(this, s, threads, y)
       n = p%start(s + 1) - p%start(s)
       if (n > 0) call add_rows(this%d, n, p%row(p%start(s)), y, this%work)
     end associate
   end subroutine forward_one
 
+  !> One supernode: its own unknowns, and y, what it changes in the rows below.
+  subroutine forward_own(this, s, threads, y)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: s, threads
+    real(wp), contiguous, intent(inout) :: y(:)
+    integer :: width, height
+    associate (first => this%supernodes%first(s), last => this%supernodes%first(s + 1) - 1)
+      call sizes(this, s, width, height)
+      if (threads > 1 .and. is_wide(width, height - width)) then
+        call forward_split(width, height - width, threads, this%l(this%panel(s)), &
+            this%work(1, first), y)
+      else
+        call forward_panel(width, height - width, this%l(this%panel(s)), &
+            this%work(1, first), y)
+      end if
+      this%work(:, first:last) = this%work(:, first:last)/this%scale
+    end associate
+  end subroutine forward_own
+
   !> Part t: what it changes outside is kept.
-  subroutine forward_part(this, t, y)
+  subroutine forward_part(this, t, b)
     class(supernodal_t), intent(inout) :: this
     integer, intent(in) :: t
-    real(wp), contiguous, intent(inout) :: y(:)
-    integer :: s, k, n, inner, width, height
-    associate (p => this%supernodes, d => this%d)
-      do s = this%parts%first(t), this%parts%last(t)
-        call sizes(this, s, width, height)
-        call forward_panel(width, height - width, this%l(this%panel(s)), &
-            this%work(1, p%first(s)), y)
+    real(wp), intent(in) :: b(:, :)
+    integer :: s, k, n, inner
+    associate (p => this%supernodes, d => this%d, parts => this%parts)
+      call take_nodes(this, p%first(parts%first(t)), p%first(parts%last(t) + 1) - 1, b)
+      do s = parts%first(t), parts%last(t)
+        call forward_own(this, s, 1, this%y(:, t))
         n = p%start(s + 1) - p%start(s)
         if (n == 0) cycle
         inner = this%inner(s)
-        call add_rows(d, inner, p%row(p%start(s)), y, this%work)
+        call add_rows(d, inner, p%row(p%start(s)), this%y(1, t), this%work)
         do k = 1, n - inner
-          this%kept(:, this%start(s) + k) = y(d*(inner + k - 1) + 1:d*(inner + k))
+          this%kept(:, this%start(s) + k) = this%y(d*(inner + k - 1) + 1:d*(inner + k), t)
         end do
       end do
     end associate
   end subroutine forward_part
 
   !> The top, and what the parts have kept for it, in the order of the supernodes.
-  subroutine forward_top(this)
+  subroutine forward_top(this, b)
     class(supernodal_t), intent(inout) :: this
-    integer :: s, n, width, height
-    associate (p => this%supernodes)
+    real(wp), intent(in) :: b(:, :)
+    integer :: s, n
+    associate (p => this%supernodes, part => this%parts%part)
       do s = 1, p%n
-        n = p%start(s + 1) - p%start(s)
-        if (this%parts%part(s) > 0) then
-          if (n > this%inner(s)) call add_rows(this%d, n - this%inner(s), &
-              p%row(p%start(s) + this%inner(s)), this%kept(1, this%start(s) + 1), this%work)
-          cycle
-        end if
-        call sizes(this, s, width, height)
-        if (is_wide(width, height - width)) then
-          call forward_split(width, height - width, this%options%threads, &
-              this%l(this%panel(s)), this%work(1, p%first(s)), this%y)
-          call add_rows(this%d, n, p%row(p%start(s)), this%y, this%work)
-        else
-          call forward_one(this, s, this%y(:, 1))
+        if (part(s) == 0) call take_nodes(this, p%first(s), p%first(s + 1) - 1, b)
+      end do
+      call take_nodes(this, this%leading + 1, this%n, b)
+      do s = 1, p%n
+        n = p%start(s + 1) - p%start(s) - this%inner(s)
+        if (part(s) == 0) then
+          call forward_one(this, s, this%options%threads, this%y(:, 1))
+        else if (n > 0) then
+          call add_rows(this%d, n, p%row(p%start(s) + this%inner(s)), &
+              this%kept(1, this%start(s) + 1), this%work)
         end if
       end do
     end associate
@@ -440,59 +433,58 @@ contains
     class(supernodal_t), intent(inout) :: this
     real(wp), intent(in) :: x_interface(:, :)
     real(wp), intent(out) :: x(:, :)
-    integer :: s, k, t
+    integer :: k, t
     if (checks_on) call check_vectors(this, x, x_interface, 'supernodal_backward')
     this%work(:, this%leading + 1:) = x_interface
-    if (this%parts%n == 0) then
-      do s = this%supernodes%n, 1, -1
-        call backward_one(this, s, this%y(:, 1))
-      end do
-    else
-      call backward_top(this)
-      !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads) private(t, s)
+    call backward_range(this, 1, this%supernodes%n, 0, this%y(:, 1), x)
+    if (this%parts%n > 0) then
+      !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads) private(t)
       do k = 1, this%parts%n
         t = this%parts%by_cost(k)
-        do s = this%parts%last(t), this%parts%first(t), -1
-          call backward_one(this, s, this%y(:, t))
-        end do
+        call backward_range(this, this%parts%first(t), this%parts%last(t), t, this%y(:, t), x)
       end do
     end if
-    do k = 1, this%n
+    do k = this%leading + 1, this%n
       x(:, this%order(k)) = this%work(:, k)
     end do
   end subroutine supernodal_backward
 
-  subroutine backward_one(this, s, y)
+  !> The supernodes first..last that are of a part, 0 = the top or all, and x of their nodes.
+  subroutine backward_range(this, first, last, part, y, x)
     class(supernodal_t), intent(inout) :: this
-    integer, intent(in) :: s
+    integer, intent(in) :: first, last, part
+    real(wp), contiguous, intent(inout) :: y(:)
+    real(wp), intent(inout) :: x(:, :)
+    integer :: s, k
+    do s = last, first, -1
+      if (this%parts%n > 0) then
+        if (this%parts%part(s) /= part) cycle
+      end if
+      call backward_one(this, s, merge(this%options%threads, 1, &
+          part == 0 .and. this%parts%n > 0), y)
+      do k = this%supernodes%first(s), this%supernodes%first(s + 1) - 1
+        x(:, this%order(k)) = this%work(:, k)
+      end do
+    end do
+  end subroutine backward_range
+
+  subroutine backward_one(this, s, threads, y)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: s, threads
     real(wp), contiguous, intent(inout) :: y(:)
     integer :: n, width, height
     associate (p => this%supernodes)
       call sizes(this, s, width, height)
       n = p%start(s + 1) - p%start(s)
       if (n > 0) call gather_rows(this%d, n, p%row(p%start(s)), this%work, y)
-      call backward_panel(width, height - width, this%l(this%panel(s)), y, &
-          this%work(1, p%first(s)))
+      if (threads > 1 .and. is_wide(width, height - width)) then
+        call backward_split(width, height - width, threads, this%l(this%panel(s)), y, &
+            this%work(1, p%first(s)))
+      else
+        call backward_panel(width, height - width, this%l(this%panel(s)), y, &
+            this%work(1, p%first(s)))
+      end if
     end associate
   end subroutine backward_one
-
-  subroutine backward_top(this)
-    class(supernodal_t), intent(inout) :: this
-    integer :: s, width, height
-    associate (p => this%supernodes)
-      do s = p%n, 1, -1
-        if (this%parts%part(s) > 0) cycle
-        call sizes(this, s, width, height)
-        if (is_wide(width, height - width)) then
-          call gather_rows(this%d, p%start(s + 1) - p%start(s), p%row(p%start(s)), this%work, &
-              this%y)
-          call backward_split(width, height - width, this%options%threads, &
-              this%l(this%panel(s)), this%y, this%work(1, p%first(s)))
-        else
-          call backward_one(this, s, this%y(:, 1))
-        end if
-      end do
-    end associate
-  end subroutine backward_top
 
 end module linalg_supernodal

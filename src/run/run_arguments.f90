@@ -84,8 +84,9 @@ contains
     ios = 1
     if (len(text) > 0 .and. len(text) < 10 .and. verify(text, '0123456789') == 0) &
         read (text, *, iostat=ios) threads
-    if (ios /= 0 .or. threads < 1 .or. threads > 1024) call fail(status, status_file, '--threads needs a '// &
-        'number from 1 to 1024, found "'//text//'"', hint='bipact --help')
+    if (ios == 0 .and. threads >= 1 .and. threads <= 1024) return
+    call fail(status, status_file, '--threads needs a number from 1 to 1024, found "'// &
+        text//'"', hint='bipact --help')
   end subroutine read_threads
 
   function argument(k) result(text)

@@ -14,7 +14,7 @@ module thread_clock
   integer, parameter :: most = 1024, most_tasks = 200000
   type(c_funptr), save :: region
   integer, save :: tasks = 0                       !< of the region
-  real(wp), save :: task(most_tasks)               !< seconds of each, in the order of their start
+  real(wp), save :: task(most_tasks)               !< seconds of each, in order of their start
   integer, save :: current(0:most - 1) = 0         !< task of each thread
   real(wp), save :: began(0:most - 1)
   real(wp), save :: inside = 0.0_wp    !< seconds of the first thread in the region
