@@ -71,6 +71,7 @@ def instructions(deck, threads, folder):
 
 def steps(threads):
     """Prints the instructions of steps at finite deformation, from runs of two lengths."""
+    os.environ.update(ROOT=common.ROOT, BIPACT=common.PROGRAM, TMP=tempfile.gettempdir())
     import finite_scenes
     import solids
 

@@ -73,11 +73,14 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
-    if (.not. block%is_ring .and. is_worth_threads(system%threads, n, &
-        system%dim*(block%nodes - 1), 1)) then
-      call subtract_stiffness_forces(system%threads, system%dim, block%nodes, n, &
-          block%node(1, from), block%stiffness(1, 1, from), factor, u, f)
-    else if (block%is_ring) then
+    if (system%threads > 1 .and. .not. block%is_ring) then
+      if (is_worth_threads(system%threads, n, system%dim*(block%nodes - 1), 1)) then
+        call subtract_stiffness_forces(system%threads, system%dim, block%nodes, n, &
+            block%node(1, from), block%stiffness(1, 1, from), factor, u, f)
+        return
+      end if
+    end if
+    if (block%is_ring) then
       call subtract_ring_forces(block%node(:, from:from + n - 1), &
           block%stiffness(:, :, from:from + n - 1), factor, u, f)
     else if (system%dim == 2 .and. block%nodes == 4) then
