@@ -205,10 +205,25 @@ endif
 # Arrays there are of one element or point: they need no memory of the heap anew each time.
 small := src/solid/% src/material/%
 
+# Files with parallel regions, which are directives of OpenMP: built with OPENMP= they are comments.
+threaded := $(addprefix src/,linalg/linalg_panels.f90 linalg/linalg_supernodal.f90 linalg/linalg_ldlt.f90 \
+              assembly/assembly_threads.f90) tests/support/thread_clock.f90
+OPENMP ?= -fopenmp
+ifndef OPENMP_LIBS
+OPENMP_LIBS := $(if $(OPENMP),$(or $(call archive,gomp),-lgomp))
+endif
+
+$(call object,$(threaded)): $(B)/openmp
+$(B)/openmp: FORCE
+	@mkdir -p $(@D)
+	@echo '$(OPENMP)' >$@.new
+	@$(refresh)
+
 define compile
 @mkdir -p $(@D) $(B)/mod
 @echo "  FC   $<"
 $(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) $(if $(filter $(small),$<),-fstack-arrays) \
+  $(if $(filter $(threaded),$<),$(OPENMP)) \
   $(if $(filter src/hdf5/% src/fclib/% src/store/%,$<),-I$(HDF5_MODULES)) -J$(B)/mod -c $< -o $@ \
   2>$(@:.o=.log) || { cat $(@:.o=.log) >&2; exit 1; }; cat $(@:.o=.log) >&2
 endef
@@ -216,7 +231,7 @@ endef
 define link
 @mkdir -p $(@D)
 @echo "  LINK $@"
-$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) \
+$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(OPENMP_LIBS) \
   || { echo 'Linking failed. If a library was not found: run "make deps".' >&2; exit 1; }
 endef
 
@@ -228,13 +243,16 @@ $(STORE_BIN): $(call object,$(store) $(hdf5)) $(LIB) $(B)/flags
 $(FCLIB_BIN) $(STORE_BIN):
 	@mkdir -p $(@D)
 	@echo "  LINK $@"
-	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(HDF5_LIBS) \
+	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(OPENMP_LIBS) $(HDF5_LIBS) \
 	  || { echo 'Linking failed. If HDF5 was not found: run "make deps".' >&2; exit 1; }
 
 test-programs: $(programs)
 
 bench-programs: $(bench-programs)
 
+# linear_solvers puts a clock around parallel regions.
+$(B)/bench/linear_solvers: private LDFLAGS += $(foreach name,parallel loop_nonmonotonic_dynamic_start \
+  loop_nonmonotonic_dynamic_next,-Wl,--wrap=GOMP_$(name))
 $(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
 
@@ -244,7 +262,7 @@ $(example-programs): $(B)/examples/%: $(B)/obj/%.o $(LIB) $(B)/flags
 	$(link)
 
 # test_allocations puts itself between the program and the library of C.
-$(B)/tests/test_allocations: LDFLAGS += -Wl,--wrap=malloc -Wl,--wrap=realloc
+$(B)/tests/test_allocations: private LDFLAGS += -Wl,--wrap=malloc -Wl,--wrap=realloc
 $(programs): $(B)/tests/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
 

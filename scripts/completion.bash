@@ -21,7 +21,7 @@ _bipact_parameters() {
 _bipact_deck() {
   local k
   for ((k = 1; k < ${#COMP_WORDS[@]}; k++)); do
-    [[ ${COMP_WORDS[k - 1]} == -[oD] || ${COMP_WORDS[k - 1]} == --restart ]] && continue
+    [[ ${COMP_WORDS[k - 1]} == -[oD] || ${COMP_WORDS[k - 1]} == --@(restart|threads) ]] && continue
     [[ ${COMP_WORDS[k]} != -* && -f ${COMP_WORDS[k]} ]] && echo "${COMP_WORDS[k]}" && return
   done
 }
@@ -49,6 +49,9 @@ _bipact() {
     --restart)
       _bipact_files '*.h5' "$word"
       [[ latest == "$word"* ]] && COMPREPLY+=(latest)
+      return ;;
+    --threads)
+      mapfile -t COMPREPLY < <(compgen -W "1 2 4 8" -- "$word")
       return ;;
   esac
   if [[ $word == -* ]]; then

@@ -9,6 +9,7 @@ module assembly_forces
   use assembly_ring, only: subtract_ring_forces, ring_product
   use assembly_solid, only: subtract_solid_force, add_solid_energy
   use assembly_system, only: system_t
+  use assembly_threads, only: is_worth_threads, subtract_stiffness_forces
   use model_data, only: model_t, curve_value
   use solid_block, only: force_rule_t, element_energy
   implicit none
@@ -28,8 +29,8 @@ contains
     real(wp), intent(inout) :: f(:, :)
     integer :: b
     if (allocated(system%solid)) then
-      call subtract_solid_force(system%solid, force_rule_t(before=one, now=zero), factor, u, &
-          u, f)
+      call subtract_solid_force(system%solid, system%threads, &
+          force_rule_t(before=one, now=zero), factor, u, u, f)
       return
     end if
     do b = 1, size(system%block)
@@ -72,6 +73,13 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
+    if (system%threads > 1 .and. .not. block%is_ring) then
+      if (is_worth_threads(system%threads, n, system%dim*(block%nodes - 1), 1)) then
+        call subtract_stiffness_forces(system%threads, system%dim, block%nodes, n, &
+            block%node(1, from), block%stiffness(1, 1, from), factor, u, f)
+        return
+      end if
+    end if
     if (block%is_ring) then
       call subtract_ring_forces(block%node(:, from:from + n - 1), &
           block%stiffness(:, :, from:from + n - 1), factor, u, f)

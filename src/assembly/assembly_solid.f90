@@ -2,6 +2,8 @@
 !> Blocks of elements at finite deformation: their forces, tangents and energies on the nodes.
 module assembly_solid
   use assembly_blocks, only: element_block_t
+  use assembly_threads, only: is_worth_threads, subtract_solid_forces, add_tangents, &
+      begin_solid
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one
   use base_strings, only: to_text
@@ -9,14 +11,17 @@ module assembly_solid
   use linalg_graph, only: graph_t, block_matrix_t
   use material_base, only: material_t, plane_stress
   use model_data, only: model_t
-  use solid_block, only: solid_t, force_rule_t, make_solid, begin_step, commit_step, &
-      element_force, element_tangent, element_energy, relative
+  use solid_block, only: solid_t, force_rule_t, make_solid, begin_elements, commit_step, &
+      element_force, element_tangent, element_energy, has_quadratic_energy, relative
   use solid_limits, only: smallest_determinant, least_stretch
   implicit none
   private
   public :: make_solids, begin_solids, commit_solids, subtract_solid_force, &
       add_solid_tangents, subtract_tangent_product, add_solid_energy, smallest_volume, &
       find_compression, exchange_solids, plastic_work
+
+  !> Work of an unknown at finite deformation, in rows of a stiffness.
+  integer, parameter :: work_of_point = 10
 
 contains
 
@@ -58,12 +63,20 @@ contains
   end function takes_mean
 
   !> A step begins at U0 (dim, n).
-  pure subroutine begin_solids(solid, u0)
+  subroutine begin_solids(solid, threads, u0)
     type(solid_t), intent(inout) :: solid(:)
+    integer, intent(in) :: threads
     real(wp), intent(in) :: u0(:, :)
     integer :: b
     do b = 1, size(solid)
-      if (solid(b)%n > 0) call begin_step(solid(b), u0)
+      if (solid(b)%n == 0) cycle
+      if (has_quadratic_energy(solid(b))) cycle
+      if (is_worth_threads(threads, solid(b)%n, solid(b)%dim*solid(b)%nodes, &
+          work_of_point)) then
+        call begin_solid(threads, solid(b), u0)
+      else
+        call begin_elements(solid(b), 1, solid(b)%n, u0)
+      end if
     end do
   end subroutine begin_solids
 
@@ -78,8 +91,9 @@ contains
   end subroutine commit_solids
 
   !> f = f - factor f*(U0, U0 + x), all (dim, n); work: of f* on x, added up [F L].
-  pure subroutine subtract_solid_force(solid, rule, factor, u0, x, f, work)
+  subroutine subtract_solid_force(solid, threads, rule, factor, u0, x, f, work)
     type(solid_t), intent(in) :: solid(:)
+    integer, intent(in) :: threads
     type(force_rule_t), intent(in) :: rule
     real(wp), intent(in) :: factor, u0(:, :), x(:, :)
     real(wp), intent(inout) :: f(:, :)
@@ -89,6 +103,11 @@ contains
     integer :: b, k, i
     total = zero
     do b = 1, size(solid)
+      if (is_worth_threads(threads, solid(b)%n, solid(b)%dim*solid(b)%nodes, &
+          work_of_point)) then
+        call subtract_solid_forces(threads, solid(b), rule, factor, u0, x, f, total)
+        cycle
+      end if
       associate (s => solid(b))
         do k = 1, s%n
           call element_force(s, k, rule, u0, x, force(:, :s%nodes))
@@ -104,8 +123,9 @@ contains
   end subroutine subtract_solid_force
 
   !> matrix = matrix + d f*/dx.
-  pure subroutine add_solid_tangents(solid, rule, u0, x, graph, matrix)
+  subroutine add_solid_tangents(solid, threads, rule, u0, x, graph, matrix)
     type(solid_t), intent(in) :: solid(:)
+    integer, intent(in) :: threads
     type(force_rule_t), intent(in) :: rule
     real(wp), intent(in) :: u0(:, :), x(:, :)
     type(graph_t), intent(in) :: graph
@@ -114,6 +134,10 @@ contains
     integer :: b, k, i, j, d, m, at
     d = size(u0, 1)
     do b = 1, size(solid)
+      if (is_worth_threads(threads, solid(b)%n, d*solid(b)%nodes, work_of_point)) then
+        call add_tangents(threads, solid(b), rule, u0, x, graph, matrix)
+        cycle
+      end if
       associate (s => solid(b))
         m = d*s%nodes
         do k = 1, s%n

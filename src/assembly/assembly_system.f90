@@ -31,6 +31,7 @@ module assembly_system
   type, public :: system_t
     integer :: n = 0
     integer :: dim = 2
+    integer :: threads = 1
     type(graph_t) :: graph
     real(wp), allocatable :: mass(:)          !< node-scalar mass on the graph [M]
     logical :: mass_is_diagonal = .false.
@@ -207,7 +208,8 @@ contains
         size(system%graph%column)))
     matrix%value = zero
     if (present(u0)) then
-      call add_solid_tangents(system%solid, system%force_rule, u0, x, system%graph, matrix)
+      call add_solid_tangents(system%solid, system%threads, system%force_rule, u0, x, &
+          system%graph, matrix)
     else if (abs(c_k) > zero) then
       do e = 1, size(system%block_of)
         call add_stiffness(system, e, c_k, matrix)

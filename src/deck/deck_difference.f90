@@ -44,9 +44,9 @@ module deck_difference
       'CONTROL_TERMINATION', 'DATABASE_', 'BIPACT_FIELD', 'BIPACT_RESTART', 'BIPACT_TIMING', &
       'BIPACT_LEDGER', 'ELEMENT_BEAM']
   !> The same for single fields.
-  character(*), parameter :: free_fields(5) = [character(22) :: 'BIPACT_CONTACT ROTWARN', &
+  character(*), parameter :: free_fields(6) = [character(22) :: 'BIPACT_CONTACT ROTWARN', &
       'BIPACT_CONTACT DFIRST', 'BIPACT_CONTACT DLAST', 'BIPACT_CONTACT DEVERY', &
-      'BIPACT_SOLVER NLAST']
+      'BIPACT_SOLVER NLAST', 'BIPACT_SOLVER THREADS']
   !> Their cards are counted together for the number of a contact.
   character(*), parameter :: contacts = 'CONTACT_', walls = 'RIGIDWALL_'
 

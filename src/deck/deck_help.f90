@@ -14,14 +14,15 @@ contains
   !> The command line.
   subroutine write_usage(unit)
     integer, intent(in) :: unit
-    character(80), parameter :: line(18) = [character(80) :: &
-      'bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--check | --plan]', &
-      '       [--quiet]', &
+    character(80), parameter :: line(19) = [character(80) :: &
+      'bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--threads N]', &
+      '       [--check | --plan] [--quiet]', &
       'bipact --keywords [NAME] | --help | --version', '', &
       '  DECK            input deck (a subset of the LS-DYNA keyword format)', &
       '  -o DIR          folder of the results; default: DECK''s name with .out', &
       '  -D name=value   replaces the value of a *PARAMETER of the deck', &
       '  --restart FILE  goes on from a restart file; latest: the newest good one', &
+      '  --threads N     threads, in place of THREADS of *BIPACT_SOLVER', &
       '  --check         reads and checks the deck; writes no file', &
       '  --plan          prints what the scene needs; writes no file', &
       '  --quiet         no summary and no progress line', &

@@ -87,7 +87,8 @@ contains
     call add_field(table, 'CGTOL', 'R10 =1.0E-12 >0 <=0.001', &
         'ENGINE CG: residual over right-hand side')
     call add_field(table, 'CGMAX', 'I10 =1000 >0', 'ENGINE CG: iterations of a solve at most')
-    call add_field(table, 'THREADS', 'I10 =1 fixed')
+    call add_field(table, 'THREADS', 'I10 =1 >0 <=1024', &
+        'threads of factor, solves and element loops')
     call add_keyword(table, 'BIPACT_LEDGER', 'energy ledger', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'EVERY', 'I10 =0 >=0', 'steps between evaluations; 0 = with GLSTAT')

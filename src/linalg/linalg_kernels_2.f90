@@ -6,7 +6,7 @@ module linalg_kernels_2
   use base_kinds, only: wp, zero, one
   implicit none
   private
-  public :: eliminate_2, invert_2, forward_2, backward_2
+  public :: eliminate_2, invert_2, forward_2, forward_part_2, backward_2
 
 contains
 
@@ -90,9 +90,9 @@ contains
     end if
   end subroutine invert_2
 
-  !> y = L^-1 y, then its leading part is divided by the pivots.
-  pure subroutine forward_2(leading, n, first, row, l, d_inverse, y)
-    integer, intent(in) :: leading, n
+  !> y = L^-1 y of the columns from..leading, then these are divided by the pivots.
+  pure subroutine forward_2(from, leading, n, first, row, l, d_inverse, y)
+    integer, intent(in) :: from, leading, n
     integer, intent(in) :: first(leading + 1)
     integer, intent(in) :: row(*)
     real(wp), intent(in) :: l(2, 2, *)
@@ -100,7 +100,7 @@ contains
     real(wp), intent(inout) :: y(2, n)
     real(wp) :: y1, y2
     integer :: j, p, i
-    do j = 1, leading
+    do j = from, leading
       y1 = y(1, j)
       y2 = y(2, j)
       do p = first(j), first(j + 1) - 1
@@ -112,16 +112,47 @@ contains
     end do
   end subroutine forward_2
 
-  !> y = L'^-1 y in the leading part, with the rest given.
-  pure subroutine backward_2(leading, n, first, row, l, y)
-    integer, intent(in) :: leading, n
+  !> The same of the columns from..last of a part of the elimination tree: what they change in
+  !> the rows after base, which are of no part, is added to `outside`.
+  pure subroutine forward_part_2(from, last, n, base, first, row, l, d_inverse, y, outside)
+    integer, intent(in) :: from, last, n, base
+    integer, intent(in) :: first(last + 1)
+    integer, intent(in) :: row(*)
+    real(wp), intent(in) :: l(2, 2, *)
+    real(wp), intent(in) :: d_inverse(3, last)
+    real(wp), intent(inout) :: y(2, n)
+    real(wp), intent(inout) :: outside(2, n - base)
+    real(wp) :: y1, y2
+    integer :: j, p, i, top
+    do j = from, last
+      y1 = y(1, j)
+      y2 = y(2, j)
+      do top = first(j), first(j + 1) - 1
+        if (row(top) > base) exit
+      end do
+      do p = first(j), top - 1
+        i = row(p)
+        y(:, i) = y(:, i) - (l(:, 1, p)*y1 + l(:, 2, p)*y2)
+      end do
+      do p = top, first(j + 1) - 1
+        i = row(p) - base
+        outside(:, i) = outside(:, i) - (l(:, 1, p)*y1 + l(:, 2, p)*y2)
+      end do
+      y(1, j) = d_inverse(1, j)*y1 + d_inverse(2, j)*y2
+      y(2, j) = d_inverse(2, j)*y1 + d_inverse(3, j)*y2
+    end do
+  end subroutine forward_part_2
+
+  !> y = L'^-1 y of the columns from..leading, with what comes after them given.
+  pure subroutine backward_2(from, leading, n, first, row, l, y)
+    integer, intent(in) :: from, leading, n
     integer, intent(in) :: first(leading + 1)
     integer, intent(in) :: row(*)
     real(wp), intent(in) :: l(2, 2, *)
     real(wp), intent(inout) :: y(2, n)
     real(wp) :: y1, y2
     integer :: j, p, i
-    do j = leading, 1, -1
+    do j = leading, from, -1
       y1 = y(1, j)
       y2 = y(2, j)
       do p = first(j), first(j + 1) - 1

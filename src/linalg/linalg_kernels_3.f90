@@ -6,7 +6,7 @@ module linalg_kernels_3
   use base_kinds, only: wp, zero, one
   implicit none
   private
-  public :: eliminate_3, invert_3, forward_3, backward_3
+  public :: eliminate_3, invert_3, forward_3, forward_part_3, backward_3
 
   !> Place of entry (i, j) in an inverse pivot.
   integer, parameter :: place(3, 3) = reshape([1, 2, 4, 2, 3, 5, 4, 5, 6], [3, 3])
@@ -84,9 +84,9 @@ contains
     inverse = [s(1, 1), s(2, 1), s(2, 2), s(3, 1), s(3, 2), s(3, 3)]
   end subroutine invert_3
 
-  !> y = L^-1 y, then its leading part is divided by the pivots.
-  pure subroutine forward_3(leading, n, first, row, l, d_inverse, y)
-    integer, intent(in) :: leading, n
+  !> y = L^-1 y of the columns from..leading, then these are divided by the pivots.
+  pure subroutine forward_3(from, leading, n, first, row, l, d_inverse, y)
+    integer, intent(in) :: from, leading, n
     integer, intent(in) :: first(leading + 1)
     integer, intent(in) :: row(*)
     real(wp), intent(in) :: l(3, 3, *)
@@ -94,7 +94,7 @@ contains
     real(wp), intent(inout) :: y(3, n)
     real(wp) :: y1, y2, y3
     integer :: j, p, i
-    do j = 1, leading
+    do j = from, leading
       y1 = y(1, j)
       y2 = y(2, j)
       y3 = y(3, j)
@@ -108,16 +108,49 @@ contains
     end do
   end subroutine forward_3
 
-  !> y = L'^-1 y in the leading part, with the rest given.
-  pure subroutine backward_3(leading, n, first, row, l, y)
-    integer, intent(in) :: leading, n
+  !> The same of the columns from..last of a part of the elimination tree: what they change in
+  !> the rows after base, which are of no part, is added to `outside`.
+  pure subroutine forward_part_3(from, last, n, base, first, row, l, d_inverse, y, outside)
+    integer, intent(in) :: from, last, n, base
+    integer, intent(in) :: first(last + 1)
+    integer, intent(in) :: row(*)
+    real(wp), intent(in) :: l(3, 3, *)
+    real(wp), intent(in) :: d_inverse(6, last)
+    real(wp), intent(inout) :: y(3, n)
+    real(wp), intent(inout) :: outside(3, n - base)
+    real(wp) :: y1, y2, y3
+    integer :: j, p, i, top
+    do j = from, last
+      y1 = y(1, j)
+      y2 = y(2, j)
+      y3 = y(3, j)
+      do top = first(j), first(j + 1) - 1
+        if (row(top) > base) exit
+      end do
+      do p = first(j), top - 1
+        i = row(p)
+        y(:, i) = y(:, i) - (l(:, 1, p)*y1 + l(:, 2, p)*y2 + l(:, 3, p)*y3)
+      end do
+      do p = top, first(j + 1) - 1
+        i = row(p) - base
+        outside(:, i) = outside(:, i) - (l(:, 1, p)*y1 + l(:, 2, p)*y2 + l(:, 3, p)*y3)
+      end do
+      y(1, j) = d_inverse(1, j)*y1 + d_inverse(2, j)*y2 + d_inverse(4, j)*y3
+      y(2, j) = d_inverse(2, j)*y1 + d_inverse(3, j)*y2 + d_inverse(5, j)*y3
+      y(3, j) = d_inverse(4, j)*y1 + d_inverse(5, j)*y2 + d_inverse(6, j)*y3
+    end do
+  end subroutine forward_part_3
+
+  !> y = L'^-1 y of the columns from..leading, with what comes after them given.
+  pure subroutine backward_3(from, leading, n, first, row, l, y)
+    integer, intent(in) :: from, leading, n
     integer, intent(in) :: first(leading + 1)
     integer, intent(in) :: row(*)
     real(wp), intent(in) :: l(3, 3, *)
     real(wp), intent(inout) :: y(3, n)
     real(wp) :: x(3)
     integer :: j, p, i
-    do j = leading, 1, -1
+    do j = leading, from, -1
       x = y(:, j)
       do p = first(j), first(j + 1) - 1
         i = row(p)

@@ -23,6 +23,7 @@ module linalg_solver
     character(name_length) :: engine = 'AUTO'
     character(name_length) :: order = 'AUTO'
     integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
+    integer :: threads = 1
     !> A pivot below this share of its own diagonal before elimination counts as null: its
     !> unknown is set to zero. 0 = null pivots are an error.
     real(wp) :: null_pivot = 0.0_wp

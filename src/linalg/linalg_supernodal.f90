@@ -3,6 +3,8 @@
 !> each supernode is a panel of columns, whatever the number of unknowns of a node; what it
 !> changes in the rows below goes to its parent in the elimination tree, and in the last nodes
 !> to the Schur complement. For space and large scenes; in small ones `linalg_ldlt` does less.
+!> With several threads, parts of the tree that do not depend on each other go first, then the
+!> top, whose wide panels are split. Each sum has the order that it has with one thread.
 module linalg_supernodal
   use base_checks, only: checks_on
   use base_kinds, only: wp, i8, zero, one
@@ -11,10 +13,11 @@ module linalg_supernodal
   use linalg_dense, only: dense_factor
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_order, only: choose_order
-  use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, gather_rows, &
-      add_rows
+  use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, forward_split, &
+      backward_split, is_wide, gather_rows, add_rows, list_places, add_columns
   use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
-  use linalg_supernodes, only: supernodes_t, find_supernodes
+  use linalg_subtrees, only: subtrees_t, find_subtrees
+  use linalg_supernodes, only: supernodes_t, find_supernodes, find_parents
   implicit none
   private
 
@@ -28,7 +31,12 @@ module linalg_supernodal
     real(wp), allocatable :: l(:)
     real(wp) :: scale = one               !< a power of two, of the size of A
     real(wp), allocatable :: work(:, :)   !< (d, n) right-hand side in elimination order
-    real(wp), allocatable :: y(:)         !< unknowns of the rows below one panel
+    real(wp), allocatable :: y(:, :)      !< unknowns of the rows below one panel, of each part
+    type(subtrees_t) :: parts             !< of the supernodes, for threads; n = 0: none
+    !> Of supernodes in a part: rows below that are in the part too; where what changes in the
+    !> others begins in `kept` (rows), less one.
+    integer, allocatable :: inner(:), start(:)
+    real(wp), allocatable :: kept(:, :)
   contains
     procedure :: analyse => supernodal_analyse
     procedure :: factor => supernodal_factor
@@ -63,6 +71,7 @@ contains
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]
     if (allocated(this%panel)) deallocate (this%panel, this%l, this%work, this%y)
+    this%parts%n = 0
     allocate (this%panel(this%supernodes%n + 1))
     this%panel(1) = 1_i8
     highest = 0
@@ -76,10 +85,37 @@ contains
         + 8_i8*(d*size(last, kind=i8))**2
     call demand_memory(this, status)
     if (failed(status)) return
+    if (this%options%threads > 1) call divide(this)
     allocate (this%l(this%panel(this%supernodes%n + 1) - 1_i8), this%work(d, graph%n), &
-        this%y(highest))
+        this%y(highest, max(1, this%parts%n)))
     this%schur%l = reshape([real(wp) ::], [d*size(last), d*size(last)], pad=[zero])
   end subroutine supernodal_analyse
+
+  !> Parts of the tree, where it is large enough for threads, and room for what they change
+  !> outside.
+  subroutine divide(this)
+    class(supernodal_t), intent(inout) :: this
+    integer(i8), parameter :: least = 300000_i8     ! entries of the factor
+    integer, allocatable :: parent(:)
+    integer :: s, last, kept
+    associate (p => this%supernodes)
+      if (this%panel(p%n + 1) <= least) return
+      call find_parents(p, this%leading, parent)
+      call find_subtrees(parent, real(this%panel(2:) - this%panel(:p%n), wp), this%parts)
+      if (this%parts%n == 0) return
+      if (allocated(this%inner)) deallocate (this%inner, this%start, this%kept)
+      allocate (this%inner(p%n), this%start(p%n), source=0)
+      kept = 0
+      do s = 1, p%n
+        if (this%parts%part(s) == 0) cycle
+        last = p%first(this%parts%last(this%parts%part(s)) + 1) - 1
+        this%inner(s) = count(p%row(p%start(s):p%start(s + 1) - 1) <= last)
+        this%start(s) = kept
+        kept = kept + p%start(s + 1) - p%start(s) - this%inner(s)
+      end do
+    end associate
+    allocate (this%kept(this%d, kept))
+  end subroutine divide
 
   !> Columns and rows of a panel, in unknowns.
   pure subroutine sizes(this, s, width, height)
@@ -99,29 +135,70 @@ contains
     type(block_matrix_t), intent(in) :: matrix
     type(status_t), intent(inout) :: status
     type(update_t), allocatable :: update(:)
-    integer, allocatable :: place(:)
-    integer :: s, width, height, lost
+    integer, allocatable :: lost(:)
+    integer :: s
     if (checks_on) call check_matrix(this, graph, matrix, 'supernodal_factor')
     call take_scale(this, graph, matrix, status)
     if (failed(status)) return
-    allocate (update(this%supernodes%n), place(this%n))
-    this%l = zero
     call take_last(this, graph, matrix)
+    allocate (update(this%supernodes%n), lost(this%supernodes%n))
+    lost = 0
+    if (this%parts%n > 0) call factor_parts(this, graph, matrix, update, lost)
+    s = findloc([lost, 1] > 0, .true., dim=1)
+    call factor_range(this, graph, matrix, 1, s - 1, 0, update, lost)
+    s = findloc(lost > 0, .true., dim=1)
+    if (s > 0) then
+      call lose_pivot(this%order(this%supernodes%first(s) + (lost(s) - 1)/this%d), status)
+      return
+    end if
     do s = 1, this%supernodes%n
-      call sizes(this, s, width, height)
-      call take_columns(this, graph, matrix, s, height, place)
-      allocate (update(s)%a(height - width, height - width), source=zero)
-      call take_children(this, s, width, height, place, update)
-      call eliminate_panel(width, height, this%l(this%panel(s)), update(s)%a, lost)
-      if (lost > 0) then
-        call lose_pivot(this%order(this%supernodes%first(s) + (lost - 1)/this%d), status)
-        return
-      end if
-      call give_last(this, s, place, update(s))
+      call give_last(this, s, update(s))
     end do
     this%schur%l = this%schur%l*this%scale
     call dense_factor(this%schur, status)
   end subroutine supernodal_factor
+
+  !> The parts of the tree by several threads.
+  subroutine factor_parts(this, graph, matrix, update, lost)
+    class(supernodal_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    type(block_matrix_t), intent(in) :: matrix
+    type(update_t), intent(inout) :: update(:)
+    integer, intent(inout) :: lost(:)
+    integer :: k, t
+    !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads) private(t)
+    do k = 1, this%parts%n
+      t = this%parts%by_cost(k)
+      call factor_range(this, graph, matrix, this%parts%first(t), this%parts%last(t), t, &
+          update, lost)
+    end do
+  end subroutine factor_parts
+
+  !> The supernodes first..last that are of a part, 0 = the top or all, up to a lost pivot.
+  subroutine factor_range(this, graph, matrix, first, last, part, update, lost)
+    class(supernodal_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    type(block_matrix_t), intent(in) :: matrix
+    integer, intent(in) :: first, last, part
+    type(update_t), intent(inout) :: update(:)
+    integer, intent(inout) :: lost(:)
+    integer, allocatable :: place(:)
+    integer :: s, width, height
+    allocate (place(this%n))
+    do s = first, last
+      if (this%parts%n > 0) then
+        if (this%parts%part(s) /= part) cycle
+      end if
+      call sizes(this, s, width, height)
+      call take_columns(this, graph, matrix, s, height, place)
+      allocate (update(s)%a(height - width, height - width), source=zero)
+      call take_children(this, s, width, height, place, update)
+      call eliminate_panel(width, height, merge(this%options%threads, 1, &
+          part == 0 .and. this%parts%n > 0), &
+          this%l(this%panel(s)), update(s)%a, lost(s))
+      if (lost(s) > 0) return
+    end do
+  end subroutine factor_range
 
   subroutine lose_pivot(node, status)
     integer, intent(in) :: node
@@ -187,6 +264,7 @@ contains
       do m = p%start(s), p%start(s + 1) - 1
         place(p%row(m)) = d*(c + m)
       end do
+      this%l(this%panel(s):this%panel(s + 1) - 1_i8) = zero
       do k = p%first(s), p%first(s + 1) - 1
         do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
           i = this%new(graph%column(m))
@@ -225,97 +303,188 @@ contains
 
   !> Adds the update of a supernode whose rows are all of the last nodes to their Schur
   !> complement.
-  subroutine give_last(this, s, place, update)
+  subroutine give_last(this, s, update)
     class(supernodal_t), intent(inout) :: this
     integer, intent(in) :: s
-    integer, intent(inout) :: place(:)
     type(update_t), intent(inout) :: update
     integer, allocatable :: to(:)
     integer :: n, k
+    if (.not. allocated(update%a)) return
     associate (p => this%supernodes)
       n = size(update%a, 1)
-      if (n > 0) then
-        if (p%row(p%start(s)) <= this%leading) return
-        place(this%leading + 1:) = [(this%d*k, k=0, this%n_interface - 1)]
-        call list_places(this%d, p%row(p%start(s):p%start(s + 1) - 1), place, to)
-        call add_columns(n, update%a, 1, n, to, size(this%schur%l, 1), this%schur%l)
-      end if
+      if (n == 0) return
+      call list_places(this%d, p%row(p%start(s):p%start(s + 1) - 1) - this%leading, &
+          [(this%d*k, k=0, this%n_interface - 1)], to)
+      call add_columns(n, update%a, 1, n, to, size(this%schur%l, 1), this%schur%l)
       deallocate (update%a)
     end associate
   end subroutine give_last
-
-  !> The place of each unknown of some nodes.
-  pure subroutine list_places(d, node, place, to)
-    integer, intent(in) :: d
-    integer, intent(in) :: node(:), place(:)
-    integer, allocatable, intent(out) :: to(:)
-    integer :: k, i
-    allocate (to(d*size(node)))
-    do k = 1, size(node)
-      do i = 1, d
-        to(d*(k - 1) + i) = place(node(k)) + i
-      end do
-    end do
-  end subroutine list_places
-
-  !> Adds columns first..last of the lower triangle of a to b; row i of a is row to(i) of b.
-  pure subroutine add_columns(n, a, first, last, to, height, b)
-    integer, intent(in) :: n, first, last, height
-    real(wp), intent(in) :: a(n, n)
-    integer, intent(in) :: to(n)
-    real(wp), intent(inout) :: b(height, *)
-    integer :: i, j, column
-    do j = first, last
-      column = to(j)
-      do i = j, n
-        b(to(i), column) = b(to(i), column) + a(i, j)
-      end do
-    end do
-  end subroutine add_columns
 
   !> y = L^-1 b panel by panel; then its leading part is divided by the scale.
   subroutine supernodal_forward(this, b, b_interface)
     class(supernodal_t), intent(inout) :: this
     real(wp), intent(in) :: b(:, :)
     real(wp), intent(out) :: b_interface(:, :)
-    integer :: s, k, n, width, height
+    integer :: s, k
     if (checks_on) call check_vectors(this, b, b_interface, 'supernodal_forward')
-    do k = 1, this%n
-      this%work(:, k) = b(:, this%order(k))
-    end do
-    associate (p => this%supernodes)
-      do s = 1, p%n
-        call sizes(this, s, width, height)
-        call forward_panel(width, height - width, this%l(this%panel(s)), &
-            this%work(1, p%first(s)), this%y)
-        n = p%start(s + 1) - p%start(s)
-        if (n > 0) call add_rows(this%d, n, p%row(p%start(s)), this%y, this%work)
+    if (this%parts%n == 0) then
+      call take_nodes(this, 1, this%n, b)
+      do s = 1, this%supernodes%n
+        call forward_one(this, s, 1, this%y(:, 1))
       end do
-    end associate
-    this%work(:, :this%leading) = this%work(:, :this%leading)/this%scale
+    else
+      !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads)
+      do k = 1, this%parts%n
+        call forward_part(this, this%parts%by_cost(k), b)
+      end do
+      call forward_top(this, b)
+    end if
     b_interface = this%work(:, this%leading + 1:)
   end subroutine supernodal_forward
+
+  !> The right-hand side of the nodes first..last of the order.
+  pure subroutine take_nodes(this, first, last, b)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: first, last
+    real(wp), intent(in) :: b(:, :)
+    integer :: k
+    do k = first, last
+      this%work(:, k) = b(:, this%order(k))
+    end do
+  end subroutine take_nodes
+
+  !> One supernode, all that it changes.
+  subroutine forward_one(this, s, threads, y)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: s, threads
+    real(wp), contiguous, intent(inout) :: y(:)
+    integer :: n
+    associate (p => this%supernodes)
+      call forward_own(this, s, threads, y)
+      n = p%start(s + 1) - p%start(s)
+      if (n > 0) call add_rows(this%d, n, p%row(p%start(s)), y, this%work)
+    end associate
+  end subroutine forward_one
+
+  !> One supernode: its own unknowns, and y, what it changes in the rows below.
+  subroutine forward_own(this, s, threads, y)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: s, threads
+    real(wp), contiguous, intent(inout) :: y(:)
+    integer :: width, height
+    associate (first => this%supernodes%first(s), last => this%supernodes%first(s + 1) - 1)
+      call sizes(this, s, width, height)
+      if (threads > 1 .and. is_wide(width, height - width)) then
+        call forward_split(width, height - width, threads, this%l(this%panel(s)), &
+            this%work(1, first), y)
+      else
+        call forward_panel(width, height - width, this%l(this%panel(s)), &
+            this%work(1, first), y)
+      end if
+      this%work(:, first:last) = this%work(:, first:last)/this%scale
+    end associate
+  end subroutine forward_own
+
+  !> Part t: what it changes outside is kept.
+  subroutine forward_part(this, t, b)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: t
+    real(wp), intent(in) :: b(:, :)
+    integer :: s, k, n, inner
+    associate (p => this%supernodes, d => this%d, parts => this%parts)
+      call take_nodes(this, p%first(parts%first(t)), p%first(parts%last(t) + 1) - 1, b)
+      do s = parts%first(t), parts%last(t)
+        call forward_own(this, s, 1, this%y(:, t))
+        n = p%start(s + 1) - p%start(s)
+        if (n == 0) cycle
+        inner = this%inner(s)
+        call add_rows(d, inner, p%row(p%start(s)), this%y(1, t), this%work)
+        do k = 1, n - inner
+          this%kept(:, this%start(s) + k) = this%y(d*(inner + k - 1) + 1:d*(inner + k), t)
+        end do
+      end do
+    end associate
+  end subroutine forward_part
+
+  !> The top, and what the parts have kept for it, in the order of the supernodes.
+  subroutine forward_top(this, b)
+    class(supernodal_t), intent(inout) :: this
+    real(wp), intent(in) :: b(:, :)
+    integer :: s, n
+    associate (p => this%supernodes, part => this%parts%part)
+      do s = 1, p%n
+        if (part(s) == 0) call take_nodes(this, p%first(s), p%first(s + 1) - 1, b)
+      end do
+      call take_nodes(this, this%leading + 1, this%n, b)
+      do s = 1, p%n
+        n = p%start(s + 1) - p%start(s) - this%inner(s)
+        if (part(s) == 0) then
+          call forward_one(this, s, this%options%threads, this%y(:, 1))
+        else if (n > 0) then
+          call add_rows(this%d, n, p%row(p%start(s) + this%inner(s)), &
+              this%kept(1, this%start(s) + 1), this%work)
+        end if
+      end do
+    end associate
+  end subroutine forward_top
 
   !> x = L'^-1 of what forward left, with x of the block given.
   subroutine supernodal_backward(this, x_interface, x)
     class(supernodal_t), intent(inout) :: this
     real(wp), intent(in) :: x_interface(:, :)
     real(wp), intent(out) :: x(:, :)
-    integer :: s, k, n, width, height
+    integer :: k, t
     if (checks_on) call check_vectors(this, x, x_interface, 'supernodal_backward')
     this%work(:, this%leading + 1:) = x_interface
-    associate (p => this%supernodes)
-      do s = p%n, 1, -1
-        call sizes(this, s, width, height)
-        n = p%start(s + 1) - p%start(s)
-        if (n > 0) call gather_rows(this%d, n, p%row(p%start(s)), this%work, this%y)
-        call backward_panel(width, height - width, this%l(this%panel(s)), this%y, &
-            this%work(1, p%first(s)))
+    call backward_range(this, 1, this%supernodes%n, 0, this%y(:, 1), x)
+    if (this%parts%n > 0) then
+      !$omp parallel do schedule(dynamic, 1) num_threads(this%options%threads) private(t)
+      do k = 1, this%parts%n
+        t = this%parts%by_cost(k)
+        call backward_range(this, this%parts%first(t), this%parts%last(t), t, this%y(:, t), x)
       end do
-    end associate
-    do k = 1, this%n
+    end if
+    do k = this%leading + 1, this%n
       x(:, this%order(k)) = this%work(:, k)
     end do
   end subroutine supernodal_backward
+
+  !> The supernodes first..last that are of a part, 0 = the top or all, and x of their nodes.
+  subroutine backward_range(this, first, last, part, y, x)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: first, last, part
+    real(wp), contiguous, intent(inout) :: y(:)
+    real(wp), intent(inout) :: x(:, :)
+    integer :: s, k
+    do s = last, first, -1
+      if (this%parts%n > 0) then
+        if (this%parts%part(s) /= part) cycle
+      end if
+      call backward_one(this, s, merge(this%options%threads, 1, &
+          part == 0 .and. this%parts%n > 0), y)
+      do k = this%supernodes%first(s), this%supernodes%first(s + 1) - 1
+        x(:, this%order(k)) = this%work(:, k)
+      end do
+    end do
+  end subroutine backward_range
+
+  subroutine backward_one(this, s, threads, y)
+    class(supernodal_t), intent(inout) :: this
+    integer, intent(in) :: s, threads
+    real(wp), contiguous, intent(inout) :: y(:)
+    integer :: n, width, height
+    associate (p => this%supernodes)
+      call sizes(this, s, width, height)
+      n = p%start(s + 1) - p%start(s)
+      if (n > 0) call gather_rows(this%d, n, p%row(p%start(s)), this%work, y)
+      if (threads > 1 .and. is_wide(width, height - width)) then
+        call backward_split(width, height - width, threads, this%l(this%panel(s)), y, &
+            this%work(1, p%first(s)))
+      else
+        call backward_panel(width, height - width, this%l(this%panel(s)), y, &
+            this%work(1, p%first(s)))
+      end if
+    end associate
+  end subroutine backward_one
 
 end module linalg_supernodal

@@ -9,7 +9,7 @@ module linalg_supernodes
   use linalg_symbolic, only: symbolic_factor, order_tree
   implicit none
   private
-  public :: find_supernodes
+  public :: find_supernodes, find_parents
 
   !> Columns first(s)..first(s+1)-1 (nodes, new numbers) have below them the rows
   !> row(start(s):start(s+1)-1), in increasing order. What the elimination of s changes there
@@ -164,5 +164,21 @@ contains
       this%row(filled) = i
     end subroutine take
   end subroutine collect_rows
+
+  !> The parent of each supernode, 0 where what it changes goes to the last nodes alone.
+  pure subroutine find_parents(this, leading, parent)
+    type(supernodes_t), intent(in) :: this
+    integer, intent(in) :: leading
+    integer, allocatable, intent(out) :: parent(:)
+    integer :: owner(leading), s
+    allocate (parent(this%n), source=0)
+    do s = 1, this%n
+      owner(this%first(s):this%first(s + 1) - 1) = s
+    end do
+    do s = 1, this%n
+      if (this%start(s + 1) == this%start(s)) cycle
+      if (this%row(this%start(s)) <= leading) parent(s) = owner(this%row(this%start(s)))
+    end do
+  end subroutine find_parents
 
 end module linalg_supernodes

@@ -11,6 +11,7 @@ module run_arguments
     character(:), allocatable :: folder
     character(:), allocatable :: restart     !< a file, or "latest"
     type(override_t), allocatable :: override(:)
+    integer :: threads = 0                   !< 0 = as the deck says
     logical :: check = .false., plan = .false., quiet = .false.
     logical :: keywords = .false., help = .false., version = .false.
   end type arguments_t
@@ -30,7 +31,7 @@ contains
     do while (k <= command_argument_count() .and. .not. failed(status))
       word = argument(k)
       select case (word)
-      case ('-o', '-D', '--restart')
+      case ('-o', '-D', '--restart', '--threads')
         k = k + 1
         if (k > command_argument_count()) then
           call fail(status, status_file, word//' needs a value', hint='bipact --help')
@@ -38,6 +39,8 @@ contains
           arguments%folder = argument(k)
         else if (word == '--restart') then
           arguments%restart = argument(k)
+        else if (word == '--threads') then
+          call read_threads(argument(k), arguments%threads, status)
         else
           call add_override(arguments, argument(k), status)
         end if
@@ -71,6 +74,20 @@ contains
         .or. arguments%version) return
     call fail(status, status_file, 'no deck given', hint='bipact DECK; bipact --help')
   end subroutine read_arguments
+
+  !> A number of threads.
+  subroutine read_threads(text, threads, status)
+    character(*), intent(in) :: text
+    integer, intent(inout) :: threads
+    type(status_t), intent(inout) :: status
+    integer :: ios
+    ios = 1
+    if (len(text) > 0 .and. len(text) < 10 .and. verify(text, '0123456789') == 0) &
+        read (text, *, iostat=ios) threads
+    if (ios == 0 .and. threads >= 1 .and. threads <= 1024) return
+    call fail(status, status_file, '--threads needs a number from 1 to 1024, found "'// &
+        text//'"', hint='bipact --help')
+  end subroutine read_threads
 
   function argument(k) result(text)
     integer, intent(in) :: k

@@ -127,7 +127,7 @@ contains
     real(wp), intent(in) :: t1
     integer :: element
     call run%timers%enter(phase_product)
-    call begin_solids(run%system%solid, run%state%u)
+    call begin_solids(run%system%solid, run%system%threads, run%state%u)
     call predict(run, stage, t1)
     run%newton%trial = run%state%u + run%x
     call smallest_volume(run%system%solid, run%newton%trial, run%newton%volume, element)
@@ -219,8 +219,8 @@ contains
     call run%timers%enter(phase_product)
     run%b = run%newton%load
     call multiply_mass(run%system, -run%scheme%stage(stage)%c_m, run%x, run%b)
-    call subtract_solid_force(run%system%solid, run%system%force_rule, one, run%state%u, &
-        run%x, run%b, run%newton%work)
+    call subtract_solid_force(run%system%solid, run%system%threads, run%system%force_rule, &
+        one, run%state%u, run%x, run%b, run%newton%work)
     if (run%plan%damping) then
       call subtract_damping(run, stage)
       call subtract_damping_force(run%system, run%scheme%stage(stage)%c_c, run%x, run%b)
@@ -239,8 +239,8 @@ contains
       if (rule%kind /= force_ends) return
       if (.not. abs(rule%now - weight(2)) > zero) return
       counted = force_rule_t(kind=force_ends, before=weight(1), now=weight(2))
-      call subtract_solid_force(run%system%solid, counted, one, run%state%u, run%x, &
-          run%newton%d, run%newton%work)
+      call subtract_solid_force(run%system%solid, run%system%threads, counted, one, &
+          run%state%u, run%x, run%newton%d, run%newton%work)
     end associate
   end subroutine count_work
 

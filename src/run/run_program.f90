@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--check | --plan] [--quiet]
+!> bipact DECK [-o DIR] [-D name=value]... [--restart FILE] [--threads N]
+!>   [--check | --plan] [--quiet]
 !> The program from its command line to its exit code, with or without what keeps fields and
 !> restart files.
 module run_program
@@ -101,6 +102,7 @@ contains
     if (allocated(arguments%folder)) run%folder = arguments%folder
     if (deck_mentions_storage(arguments, run)) call exec_hdf5_program('hdf5', sibling)
     call read_scene(arguments%deck, arguments%override, run, status)
+    if (arguments%threads > 0) run%solver_options%threads = arguments%threads
     if (.not. (failed(status) .or. arguments%plan .or. arguments%check)) &
         call need_storage(arguments, run, status)
     do k = 1, run%deck%problems%count

@@ -398,6 +398,7 @@ contains
     solver%block_limit = deck%integer(r, 'NLAST')
     solver%tolerance = deck%real(r, 'CGTOL')
     solver%most_iterations = deck%integer(r, 'CGMAX')
+    solver%threads = deck%integer(r, 'THREADS')
     call check_engine(deck, controls, solver, r)
   end subroutine read_solver_options
 

@@ -44,8 +44,8 @@ module solid_block
     real(wp), allocatable :: history(:, :, :)    !< (states, points, n) at the start of the step
   end type solid_t
 
-  public :: make_solid, begin_step, commit_step, element_force, element_tangent, &
-      element_energy, relative
+  public :: make_solid, begin_elements, commit_step, element_force, element_tangent, &
+      element_energy, has_quadratic_energy, relative
 
 contains
 
@@ -89,16 +89,17 @@ contains
     solid%energy = zero
   end subroutine make_solid
 
-  !> What a step from U0 (dim, *) needs: the energy of each element there.
-  pure subroutine begin_step(solid, u0)
+  !> What a step from U0 (dim, *) needs of the elements first..last: their energies there. Not
+  !> where has_quadratic_energy.
+  pure subroutine begin_elements(solid, first, last, u0)
     type(solid_t), intent(inout) :: solid
+    integer, intent(in) :: first, last
     real(wp), intent(in) :: u0(:, :)
     integer :: k
-    if (has_quadratic_energy(solid)) return
-    do k = 1, solid%n
+    do k = first, last
       solid%energy(k) = element_energy(solid, k, u0)
     end do
-  end subroutine begin_step
+  end subroutine begin_elements
 
   !> The step is accepted: the history at U1 (dim, *) becomes the old one.
   pure subroutine commit_step(solid, u1)
