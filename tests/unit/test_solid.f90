@@ -10,7 +10,7 @@ program test_solid
   use law_cases, only: case_t, make_cases
   use material_base, only: plane_strain, plane_stress, axisymmetric, in_space
   use solid_block, only: solid_t, force_rule_t, force_ends, force_middle, force_conserving, &
-      make_solid, begin_step, commit_step, element_force, element_tangent, &
+      make_solid, begin_elements, commit_step, element_force, element_tangent, &
       element_energy
   implicit none
   type(case_t), allocatable :: cases(:)
@@ -64,12 +64,12 @@ contains
     allocate (u, d, mold=x)
     u = 0.1_wp*random_matrix(size(x, 1), size(x, 2))
     d = 0.08_wp*random_matrix(size(x, 1), size(x, 2))
-    call begin_step(solid, u)
+    call begin_elements(solid, 1, 1, u)
     if (.not. case%is_plastic) call test_derivative(solid, u, label)
     ! The yield curve of the other has corners, where a difference is no derivative.
     if (case%name /= 'piecewise') call test_tangents(solid, u, d, label)
     call commit_step(solid, u)
-    call begin_step(solid, u)
+    call begin_elements(solid, 1, 1, u)
     call test_conserving(solid, x, u, d, label)
     solid%history = zero
     call test_rigid(solid, x, label)
