@@ -34,14 +34,19 @@ contains
     type(status_t), intent(inout) :: status
     integer, allocatable :: first(:), member(:), place(:)
     type(delassus_blocks_t) :: part
+    type(certificate_t) :: own
     integer :: k
     call find_components(w, first, member)
     allocate (place(w%contacts))
     do k = 1, size(first) - 1
       associate (list => member(first(k):first(k + 1) - 1))
         call take_component(w, list, place, part)
-        call solve_component(options, part, q(:, list), mu(list), list, r, &
-            certificate)
+        call solve_component(options, part, q(:, list), mu(list), list, r, own)
+        certificate%sweeps = max(certificate%sweeps, own%sweeps)
+        certificate%newton_steps = certificate%newton_steps + own%newton_steps
+        certificate%local_iterations = certificate%local_iterations + own%local_iterations
+        certificate%products = certificate%products + own%products*size(part%block) &
+            /size(w%block)
       end associate
     end do
     call w%displacements(q, r, u)
@@ -50,14 +55,13 @@ contains
   end subroutine solve_blocks
 
   !> One component; its contacts are list in r (d, all).
-  subroutine solve_component(options, part, q, mu, list, r, certificate)
+  subroutine solve_component(options, part, q, mu, list, r, own)
     type(cone_options_t), intent(in) :: options
     type(delassus_blocks_t), intent(in) :: part
     real(wp), intent(in) :: q(:, :), mu(:)
     integer, intent(in) :: list(:)
     real(wp), intent(inout) :: r(:, :)
-    type(certificate_t), intent(inout) :: certificate
-    type(certificate_t) :: own
+    type(certificate_t), intent(out) :: own
     type(scaled_t) :: p
     real(wp) :: m, largest
     if (all(q(1, :) >= zero)) then
@@ -69,9 +73,6 @@ contains
     call scale_problem(part, q, mu, r(:, list), m, largest, options%rho_factor, p)
     call iterate(options, p, own)
     r(:, list) = p%r*(largest/m)
-    certificate%sweeps = max(certificate%sweeps, own%sweeps)
-    certificate%newton_steps = certificate%newton_steps + own%newton_steps
-    certificate%local_iterations = certificate%local_iterations + own%local_iterations
   end subroutine solve_component
 
   !> Chunks of sweeps until the certificate is met; Newton when it is due.

@@ -16,6 +16,7 @@ module cone_newton
 
   type :: newton_work_t
     real(wp) :: flops = zero, numbers = zero  !< of a step; in its matrix
+    real(wp) :: products = zero               !< with W, or their worth, so far
     integer :: width = 0                      !< half of the band [unknowns]
     logical :: banded = .false.
     integer, allocatable :: order(:)          !< (nc) contacts by Cuthill-McKee
@@ -25,6 +26,9 @@ module cone_newton
     real(wp), allocatable, dimension(:, :) :: start, map, u, trial, step   !< (d, nc)
     real(wp), allocatable :: part(:, :, :)    !< (d, d, nc) derivative of the projection
   end type newton_work_t
+
+  !> Operations of a factor that take as long as a product with W, a number of W.
+  real(wp), parameter, public :: product_weight = 6.0_wp
 
 contains
 
@@ -50,10 +54,17 @@ contains
     work%width = w%d*(band + 1) - 1
     ! The factor of a band, with space for its row exchanges, costs 4 n width^2.
     work%banded = 6*real(work%width, wp)**2 < real(n, wp)**2
-    work%flops = real(n, wp)**3/1.5_wp
-    if (work%banded) work%flops = 4*real(n, wp)*real(work%width, wp)**2
+    work%flops = factor_flops(work, n)
     work%numbers = real(n, wp)*merge(3*work%width + 1, n, work%banded)
   end subroutine plan_newton
+
+  !> Operations of the factor of n unknowns.
+  pure real(wp) function factor_flops(work, n)
+    type(newton_work_t), intent(in) :: work
+    integer, intent(in) :: n
+    factor_flops = real(n, wp)**3/1.5_wp
+    if (work%banded) factor_flops = 4*real(n, wp)*real(work%width, wp)**2
+  end function factor_flops
 
   !> Space for the steps, once.
   subroutine size_newton(w, work)
@@ -118,6 +129,7 @@ contains
     integer :: a, status
     work%u = q + alpha*(r - work%start)
     call w%add_product(r, work%u)
+    work%products = work%products + one
     do a = 1, size(mu)
       call contact_map(mu(a), rho(a), r(:, a), work%u(:, a), work%map(:, a), &
           work%part(:, :, a), status)
@@ -148,6 +160,7 @@ contains
     end do
     ok = .true.
     if (n == 0) return
+    work%products = work%products + factor_flops(work, d*n)/(product_weight*size(w%block))
     if (work%banded) then
       call solve_banded(d*n, work%width, work%matrix, work%right, work%pivot, ok)
     else

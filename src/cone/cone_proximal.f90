@@ -41,6 +41,8 @@ contains
       call newton_solve(p%w, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &
           norm, steps)
       certificate%newton_steps = certificate%newton_steps + steps
+      certificate%products = certificate%products + p%newton%products
+      p%newton%products = zero
       trial = certificate
       call evaluate_error(p, options%tolerance, trial)
       if (trial%error < certificate%error) then
@@ -96,6 +98,7 @@ contains
     end do
     p%mu = mu
     certificate%newton_steps = trial%newton_steps
+    certificate%products = trial%products
     call evaluate_error(p, options%tolerance, trial)
     if (trial%met) then
       certificate = trial

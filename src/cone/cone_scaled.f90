@@ -72,6 +72,7 @@ contains
     type(certificate_t), intent(inout) :: certificate
     call p%w%displacements(p%q, p%r, p%u)
     call evaluate_certificate(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
+    certificate%products = certificate%products + one
   end subroutine evaluate_error
 
   !> Some sweeps, the last of them always plain, so that r is in its cones; or steps with
@@ -88,6 +89,7 @@ contains
         call gradient_step(p%w, p%q, p%mu, p%r, p%gradient)
       end do
       certificate%sweeps = certificate%sweeps + chunk
+      certificate%products = certificate%products + chunk
       return
     end if
     do k = 1, chunk
@@ -95,6 +97,7 @@ contains
       call sweep_contacts(options, p%w, p%mu, p%rho, p%q, p%r, p%u, p%status, p%change, &
           certificate%local_iterations)
       certificate%sweeps = certificate%sweeps + 1
+      certificate%products = certificate%products + one
       if (p%method == plain_sweeps .or. k == chunk) cycle
       call extrapolate(p%memory, size(p%r), p%before, p%r)
       do a = 1, size(p%mu)
