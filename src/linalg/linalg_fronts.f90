@@ -222,7 +222,7 @@ contains
   subroutine solve_fronts(this, x)
     type(fronts_t), intent(in) :: this
     real(wp), intent(inout) :: x(:, :)
-    real(wp), allocatable :: y(:, :)
+    real(wp) :: y(this%d, this%n)
     integer :: s
     y = x(:, this%order)
     do s = 1, this%nodes%n
