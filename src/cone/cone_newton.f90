@@ -14,7 +14,7 @@ module cone_newton
   use linalg_order, only: reverse_cuthill_mckee
   implicit none
   private
-  public :: newton_work_t, plan_newton, newton_solve
+  public :: newton_work_t, plan_newton, newton_solve, step_products
 
   type :: newton_work_t
     real(wp) :: flops = zero, numbers = zero  !< of a step; in its matrix
@@ -24,6 +24,7 @@ module cone_newton
     integer, allocatable :: order(:)          !< (nc) contacts, new -> old
     type(graph_t) :: graph                    !< of the contacts, symmetric
     type(fronts_t) :: fronts
+    logical, allocatable :: planned(:)        !< (nc) contacts of the fronts as they are
     integer :: blocks = 0                     !< filled
     integer, allocatable :: row(:), column(:) !< of the blocks of a sparse matrix
     real(wp), allocatable :: value(:, :, :)
@@ -37,6 +38,8 @@ module cone_newton
   !> Operations of a factor that take as long as a product with W, a number of W.
   real(wp), parameter, public :: product_weight = 6.0_wp
   integer, parameter :: least_sparse = 100     !< unknowns
+  !> Products that go by while a sparse matrix is filled and its fronts are put together.
+  real(wp), parameter :: sparse_products = 20.0_wp
 
 contains
 
@@ -63,7 +66,7 @@ contains
     work%numbers = real(n, wp)*merge(3*work%width + 1, n, work%banded)
     if (n < least_sparse) return
     call plan_fronts(work%graph, w%d, work%fronts)
-    work%sparse = work%fronts%flops < half*work%flops
+    work%sparse = work%fronts%flops + sparse_products*product_weight*size(w%block) < work%flops
     if (.not. work%sparse) return
     work%banded = .false.
     work%flops = work%fronts%flops
@@ -96,6 +99,14 @@ contains
     if (work%banded) factor_flops = 4*real(n, wp)*real(work%width, wp)**2
   end function factor_flops
 
+  !> What a step costs, in products with W, its own two among them.
+  pure real(wp) function step_products(w, work)
+    type(delassus_blocks_t), intent(in) :: w
+    type(newton_work_t), intent(in) :: work
+    step_products = 2.0_wp + work%flops/(product_weight*size(w%block))
+    if (work%sparse) step_products = step_products + sparse_products
+  end function step_products
+
   !> Space for the steps, once.
   subroutine size_newton(w, work)
     type(delassus_blocks_t), intent(in) :: w
@@ -109,6 +120,8 @@ contains
     if (work%sparse) then
       allocate (work%row(size(w%column)), work%column(size(w%column)))
       allocate (work%value(d, d, size(w%column)), work%right(n, 1))
+      allocate (work%planned(nc))
+      work%planned = .false.
     else
       allocate (work%matrix(merge(3*work%width + 1, n, work%banded), n), work%right(n, 1))
       allocate (work%pivot(n))
@@ -120,26 +133,31 @@ contains
 
   !> Newton steps with line search for r = P_K(r - rho (u_n + mu |u_t|, u_t)), u = W r + q +
   !> alpha (r - r_0), until |map| <= goal or the line search finds no way down; the best r is
-  !> kept. rho (nc), all scaled.
-  subroutine newton_solve(w, q, mu, rho, alpha, goal, most, r, work, norm, steps)
+  !> kept. patience steps must halve |map|, or it gives up. rho (nc), all scaled.
+  subroutine newton_solve(w, q, mu, rho, alpha, goal, most, patience, r, work, norm, steps)
     type(delassus_blocks_t), intent(in) :: w
     real(wp), intent(in) :: q(:, :)
     real(wp), intent(in) :: mu(:), rho(:)
     real(wp), intent(in) :: alpha, goal
-    integer, intent(in) :: most
+    integer, intent(in) :: most, patience
     real(wp), intent(inout), contiguous :: r(:, :)
     type(newton_work_t), intent(inout) :: work
     real(wp), intent(out) :: norm
     integer, intent(out) :: steps
-    real(wp) :: length, trial_norm
+    real(wp) :: length, trial_norm, marked
     logical :: ok
     integer :: k
     call size_newton(w, work)
     work%start = r
     call evaluate_map(w, q, mu, rho, alpha, r, work)
     norm = sqrt(sum(work%map**2))
+    marked = norm
     do steps = 1, most
       if (norm <= goal) return
+      if (mod(steps, patience) == 0) then
+        if (norm > half*marked) return
+        marked = norm
+      end if
       call find_step(w, mu, rho, alpha, work, ok)
       if (.not. ok) return
       length = one
@@ -205,7 +223,8 @@ contains
     else
       call solve_general(d*n, work%matrix, work%right, work%pivot, ok)
     end if
-    work%products = work%products + factor_flops(work, d*n)/(product_weight*size(w%block))
+    work%products = work%products + merge(sparse_products, zero, work%sparse) &
+        + factor_flops(work, d*n)/(product_weight*size(w%block))
     if (.not. ok) return
     do a = 1, size(mu)
       k = work%place(a)
@@ -219,9 +238,21 @@ contains
     integer, intent(in) :: n
     type(newton_work_t), intent(inout) :: work
     logical, intent(out) :: ok
+    real(wp) :: x(w%d, n)
+    if (.not. all(work%planned .eqv. work%place > 0)) call plan_active(w%d, n, work)
+    call factor_fronts(work%fronts, work%row(:work%blocks), work%column(:work%blocks), &
+        work%value, ok)
+    if (.not. ok) return
+    x = reshape(work%right(:w%d*n, 1), [w%d, n])
+    call solve_fronts(work%fronts, x)
+    work%right(:w%d*n, 1) = reshape(x, [w%d*n])
+  end subroutine solve_sparse
+
+  !> Fronts of n active contacts.
+  subroutine plan_active(d, n, work)
+    integer, intent(in) :: d, n
+    type(newton_work_t), intent(inout) :: work
     type(graph_t) :: graph
-    real(wp), allocatable :: x(:, :)
-    integer, allocatable :: order(:)
     integer :: a, k, m
     graph%n = n
     allocate (graph%first(n + 1), graph%column(size(work%graph%column)))
@@ -236,15 +267,10 @@ contains
       end do
     end do
     graph%first(n + 1) = m + 1
-    order = pack(work%place(work%order), work%place(work%order) > 0)
-    call plan_fronts(graph, w%d, work%fronts, order)
-    call factor_fronts(work%fronts, work%row(:work%blocks), work%column(:work%blocks), &
-        work%value, ok)
-    if (.not. ok) return
-    x = reshape(work%right(:w%d*n, 1), [w%d, n])
-    call solve_fronts(work%fronts, x)
-    work%right(:w%d*n, 1) = reshape(x, [w%d*n])
-  end subroutine solve_sparse
+    call plan_fronts(graph, d, work%fronts, pack(work%place(work%order), &
+        work%place(work%order) > 0))
+    work%planned = work%place > 0
+  end subroutine plan_active
 
   !> The rows of active contact a; the steps of the open ones go to the right side.
   pure subroutine fill_rows(w, a, mu, rho, alpha, work)

@@ -76,7 +76,7 @@ contains
     if (present(order)) then
       this%order = order
     else
-      call choose_order(graph, [integer ::], 'AUTO', this%order, chosen, multiplications, &
+      call choose_order(graph, [integer ::], 'METIS', this%order, chosen, multiplications, &
           status)
       if (failed(status)) this%order = [(k, k=1, graph%n)]
     end if
