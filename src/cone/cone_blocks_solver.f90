@@ -104,6 +104,9 @@ contains
     call evaluate_error(p, options%tolerance, certificate)
     if (strategy%newtons > 0) &
         call proximal_newton(options, p, .false., most_loops, unlimited, certificate)
+    if (certificate%met) return
+    if (strategy%newtons > 0 .and. size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted) &
+        call pivot_component(options%tolerance, p, certificate)
   end subroutine iterate
 
   !> From the best point: Newton and the proximal loop, within their budget; at the first time
@@ -124,12 +127,12 @@ contains
         newton_budget(p, began, strategy), certificate)
     if (certificate%met) return
     call keep_best(p, certificate)
-    if (strategy%newtons == 0 .and. size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted) &
-        call pivot_component(options%tolerance, p, certificate)
-    if (certificate%met) return
-    if (strategy%newtons == 0 .and. some_wedge(p)) &
-        call friction_continuation(options, p, certificate)
-    if (certificate%met) return
+    if (strategy%newtons == 0 .and. some_wedge(p)) then
+      if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted) &
+          call pivot_component(options%tolerance, p, certificate)
+      if (.not. certificate%met) call friction_continuation(options, p, certificate)
+      if (certificate%met) return
+    end if
     p%r = kept
     call after_failed_newton(began, before, certificate%products, p, strategy)
   end subroutine try_newton

@@ -14,21 +14,24 @@ module cone_strategy
   public :: choose_method, after_failed_newton, newton_budget, products_left
 
   integer, parameter :: patience = 30          !< sweeps before the acceleration
-  real(wp), parameter :: first_span = 200.0_wp !< products that must halve the misfit
+  real(wp), parameter :: first_span = 400.0_wp !< products that must halve the misfit
   real(wp), parameter :: cheap = 80.0_wp       !< products: a Newton of that cost comes first
   !> Accelerated sweeps go on while no more than that is left of them at their rate.
   real(wp), parameter :: promising = 100.0_wp
   real(wp), parameter :: largest_newton = 1.0e8_wp  !< numbers of the matrix of a step
-  !> Newton is expected to take about that many steps, and is worth another attempt when the
-  !> misfit has fallen by so much.
-  real(wp), parameter :: newton_weight = 15.0_wp, much_less = 0.1_wp
+  !> Newton is expected to take about that many steps.
+  !> The proximal loop takes a few times that.
+  real(wp), parameter :: newton_weight = 15.0_wp, loops_weight = 5.0_wp
+  !> A misfit that has fallen by so much is worth another attempt of Newton, or that momentum
+  !> begins anew: its memory is worth hundreds of steps.
+  real(wp), parameter :: much_less = 0.1_wp
   !> What is left at the rate of the others when a plan for Newton is made; of many unknowns
   !> the plan itself takes as long as so many products.
   real(wp), parameter :: plan_products = 150.0_wp
   integer, parameter :: many_unknowns = 300
   !> Of what other methods have spent Newton and the proximal loop get that much; more where
   !> nothing else makes progress.
-  real(wp), parameter :: share = 1.0_wp/3.0_wp, stalled_share = 2.0_wp/3.0_wp
+  real(wp), parameter :: share = 1.0_wp/3.0_wp, stalled_share = 1.0_wp
 
   !> What is known of the iterations so far.
   type, public :: strategy_t
@@ -44,8 +47,8 @@ module cone_strategy
     real(wp) :: span = first_span
     logical :: stalled = .false.         !< the last span did not halve the misfit
     logical :: judged = .false.          !< a span has just ended
-    !> Accelerated sweeps in the place of momentum that stalls: they last until then, must
-    !> halve that misfit, or r (d, nc) is where momentum goes on.
+    !> Accelerated sweeps in the place of momentum that stalls: until then. Momentum goes on
+    !> at r (d, nc) where it was, unless the misfit became much less than at their start.
     real(wp) :: turn_end = zero, turn_misfit = zero
     real(wp), allocatable :: left_at(:, :)
   end type strategy_t
@@ -128,7 +131,7 @@ contains
     else
       if (now < strategy%turn_end) return
       if (products_left(options%tolerance, p%best_misfit, now, strategy) <= promising) return
-      if (allocated(strategy%left_at) .and. p%best_misfit > half*strategy%turn_misfit) then
+      if (allocated(strategy%left_at) .and. p%best_misfit > much_less*strategy%turn_misfit) then
         p%r = strategy%left_at
         p%method = momentum_steps
       else
@@ -174,7 +177,9 @@ contains
     type(scaled_t), intent(in) :: p
     real(wp), intent(in) :: now
     type(strategy_t), intent(in) :: strategy
-    newton_budget = max(newton_cost(p), merge(stalled_share, share, strategy%stalled) &
+    newton_budget = newton_cost(p)
+    if (newton_budget <= cheap) newton_budget = loops_weight*newton_budget
+    newton_budget = max(newton_budget, merge(stalled_share, share, strategy%stalled) &
         *(now - strategy%newton_spent))
   end function newton_budget
 
@@ -206,7 +211,7 @@ contains
     strategy%turn_end = strategy%turn_end + (now - began)
     if (p%best_misfit <= half*before) &
         strategy%newton_rate = log(before/p%best_misfit)/max(one, now - began)
-    if (p%method == momentum_steps .and. p%best_misfit > half*before) return
+    if (p%method == momentum_steps .and. p%best_misfit > much_less*before) return
     p%r = p%best
     call start_method(p, momentum_steps)
     call start_measure(now, p%best_misfit, strategy)
