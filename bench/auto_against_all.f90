@@ -3,7 +3,8 @@
 !> products with W and processor seconds of each solve, all in one process.
 !>   auto_against_all [--packings N] [--tol T] [--max-time S] [--write FOLDER]
 !>                   [--solvers AUTO,GS,...] [FILE.hdf5 ...]
-!> A solver runs no longer than 1.2 times the fastest before it, unless --all yes. A line a run; then how often AUTO is within 1.5 and 3 times the best of the single solvers,
+!> A solver runs no longer than 1.2 times the fastest before it, unless --all yes.
+!> A line a run; then how often AUTO is within 1.5 and 3 times the best of the single solvers,
 !> in products or seconds, times below 4 ms being equal.
 program auto_against_all
   use, intrinsic :: iso_fortran_env, only: output_unit

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Which method comes next in a group of contacts: the rule of AUTO. It asks for sizes, costs and
-!> misfits only. Costs are counted in products with W; progress is the logarithm of the misfit
-!> that a method took away, over what that cost.
+!> Which method comes next in a group of contacts: the rule of AUTO. It asks for sizes, costs
+!> and misfits only. Costs are counted in products with W; progress is the logarithm of the
+!> misfit that a method took away, over what that cost.
 module cone_strategy
   use base_kinds, only: wp, zero, one, half
   use cone_newton, only: plan_newton, step_products
@@ -72,8 +72,8 @@ contains
     if (options%solver == solver_nesterov .or. certificate%sweeps < 2*chunk) return
     call measure(p%best_misfit, certificate%products, strategy)
     if (options%solver == solver_anderson) then
-      if (strategy%judged .and. strategy%stalled) &
-          call start_method(p, merge(plain_sweeps, anderson_sweeps, p%method == anderson_sweeps))
+      if (strategy%judged .and. strategy%stalled) call start_method(p, &
+          merge(plain_sweeps, anderson_sweeps, p%method == anderson_sweeps))
       return
     end if
     call ask_for_newton(options, certificate, p, strategy)
