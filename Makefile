@@ -187,10 +187,12 @@ store := $(wildcard src/store/*.f90)
 support := $(wildcard tests/support/*.f90)
 units := $(wildcard tests/unit/test_*.f90)
 benches := $(wildcard bench/*.f90)
+# Benches that read files of contact problems.
+hdf5-benches := bench/auto_against_all.f90
 examples := $(wildcard examples/*.f90)
 object = $(patsubst %,$(B)/obj/%.o,$(basename $(notdir $(1))))
 programs := $(patsubst tests/unit/%.f90,$(B)/tests/%,$(units))
-bench-programs := $(patsubst bench/%.f90,$(B)/bench/%,$(benches))
+bench-programs := $(patsubst bench/%.f90,$(B)/bench/%,$(if $(HDF5_MODULES),$(benches),$(filter-out $(hdf5-benches),$(benches))))
 
 # Replaces the target by its new text only if it differs, so that nothing is remade needlessly.
 refresh = if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
@@ -253,6 +255,9 @@ bench-programs: $(bench-programs)
 # linear_solvers puts a clock around parallel regions.
 $(B)/bench/linear_solvers: private LDFLAGS += $(foreach name,parallel loop_nonmonotonic_dynamic_start \
   loop_nonmonotonic_dynamic_next,-Wl,--wrap=GOMP_$(name))
+$(patsubst bench/%.f90,$(B)/bench/%,$(hdf5-benches)): LIBS += $(HDF5_LIBS)
+$(patsubst bench/%.f90,$(B)/bench/%,$(hdf5-benches)): \
+  $(call object,$(filter-out src/fclib/fclib_main.f90,$(fclib)) $(hdf5))
 $(bench-programs): $(B)/bench/%: $(B)/obj/%.o $(SUPPORT) $(LIB) $(B)/flags
 	$(link)
 

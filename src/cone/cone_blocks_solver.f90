@@ -11,13 +11,15 @@ module cone_blocks_solver
   use cone_dense, only: delassus_dense_t
   use cone_local, only: may_wedge
   use cone_proximal, only: proximal_newton, friction_continuation, most_loops
-  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, evaluate_error
-  use cone_strategy, only: strategy_t, choose_method, after_failed_newton
+  use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, evaluate_error, keep_best
+  use cone_strategy, only: strategy_t, choose_method, after_failed_newton, newton_budget
   use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work, &
       most_pivoted, solver_newton, solver_prox, late
   implicit none
   private
   public :: solve_blocks
+
+  real(wp), parameter :: unlimited = huge(zero)
 
 contains
 
@@ -34,14 +36,19 @@ contains
     type(status_t), intent(inout) :: status
     integer, allocatable :: first(:), member(:), place(:)
     type(delassus_blocks_t) :: part
+    type(certificate_t) :: own
     integer :: k
     call find_components(w, first, member)
     allocate (place(w%contacts))
     do k = 1, size(first) - 1
       associate (list => member(first(k):first(k + 1) - 1))
         call take_component(w, list, place, part)
-        call solve_component(options, part, q(:, list), mu(list), list, r, &
-            certificate)
+        call solve_component(options, part, q(:, list), mu(list), list, r, own)
+        certificate%sweeps = max(certificate%sweeps, own%sweeps)
+        certificate%newton_steps = certificate%newton_steps + own%newton_steps
+        certificate%local_iterations = certificate%local_iterations + own%local_iterations
+        certificate%products = certificate%products + own%products*size(part%block) &
+            /size(w%block)
       end associate
     end do
     call w%displacements(q, r, u)
@@ -50,14 +57,13 @@ contains
   end subroutine solve_blocks
 
   !> One component; its contacts are list in r (d, all).
-  subroutine solve_component(options, part, q, mu, list, r, certificate)
+  subroutine solve_component(options, part, q, mu, list, r, own)
     type(cone_options_t), intent(in) :: options
     type(delassus_blocks_t), intent(in) :: part
     real(wp), intent(in) :: q(:, :), mu(:)
     integer, intent(in) :: list(:)
     real(wp), intent(inout) :: r(:, :)
-    type(certificate_t), intent(inout) :: certificate
-    type(certificate_t) :: own
+    type(certificate_t), intent(out) :: own
     type(scaled_t) :: p
     real(wp) :: m, largest
     if (all(q(1, :) >= zero)) then
@@ -69,12 +75,10 @@ contains
     call scale_problem(part, q, mu, r(:, list), m, largest, options%rho_factor, p)
     call iterate(options, p, own)
     r(:, list) = p%r*(largest/m)
-    certificate%sweeps = max(certificate%sweeps, own%sweeps)
-    certificate%newton_steps = certificate%newton_steps + own%newton_steps
-    certificate%local_iterations = certificate%local_iterations + own%local_iterations
   end subroutine solve_component
 
-  !> Chunks of sweeps until the certificate is met; Newton when it is due.
+  !> Chunks of sweeps until the certificate is met; Newton when it is due. When the sweeps are
+  !> spent, the proximal loop has the last word; r is the best there was.
   subroutine iterate(options, p, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
@@ -82,29 +86,56 @@ contains
     type(strategy_t) :: strategy
     if (options%solver == solver_prox .or. options%solver == solver_newton) then
       call evaluate_error(p, options%tolerance, certificate)
-      call proximal_newton(options, p, options%solver == solver_newton, most_loops, certificate)
+      call proximal_newton(options, p, options%solver == solver_newton, most_loops, &
+          unlimited, certificate)
       if (certificate%met) return
     end if
     do while (certificate%sweeps < options%max_sweeps)
-      if (late(options)) return
+      if (late(options)) exit
       call sweep_chunk(options, p, certificate)
       call evaluate_error(p, options%tolerance, certificate)
       if (certificate%met) return
       call choose_method(options, certificate, p, strategy)
-      if (strategy%newton_due) then
-        call proximal_newton(options, p, strategy%newtons == 0, &
-            merge(most_loops, 0, strategy%proximal_due), certificate)
-        if (certificate%met) return
-        if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted .and. strategy%newtons == 0) &
-            call pivot_component(options%tolerance, p, certificate)
-        if (certificate%met) return
-        if (strategy%newtons == 0 .and. some_wedge(p)) &
-            call friction_continuation(options, p, certificate)
-        if (certificate%met) return
-        call after_failed_newton(options, certificate, p, strategy)
-      end if
+      if (strategy%newton_due) call try_newton(options, p, strategy, certificate)
+      if (certificate%met) return
     end do
+    if (.not. allocated(p%best)) return
+    p%r = p%best
+    call evaluate_error(p, options%tolerance, certificate)
+    if (strategy%newtons > 0) &
+        call proximal_newton(options, p, .false., most_loops, unlimited, certificate)
+    if (certificate%met) return
+    if (strategy%newtons > 0 .and. size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted) &
+        call pivot_component(options%tolerance, p, certificate)
   end subroutine iterate
+
+  !> From the best point: Newton and the proximal loop, within their budget; at the first time
+  !> what there is for contacts that wedge. Where all fail the method before goes on.
+  subroutine try_newton(options, p, strategy, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(inout) :: p
+    type(strategy_t), intent(inout) :: strategy
+    type(certificate_t), intent(inout) :: certificate
+    real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: kept
+    real(wp) :: began, before
+    kept = p%r
+    began = certificate%products
+    before = p%best_misfit
+    p%r = p%best
+    call evaluate_error(p, options%tolerance, certificate)
+    call proximal_newton(options, p, .true., merge(most_loops, 0, strategy%proximal_due), &
+        newton_budget(p, began, strategy), certificate)
+    if (certificate%met) return
+    call keep_best(p, certificate)
+    if (strategy%newtons == 0 .and. some_wedge(p)) then
+      if (size(p%q, 1) == 2 .and. size(p%mu) <= most_pivoted) &
+          call pivot_component(options%tolerance, p, certificate)
+      if (.not. certificate%met) call friction_continuation(options, p, certificate)
+      if (certificate%met) return
+    end if
+    p%r = kept
+    call after_failed_newton(began, before, certificate%products, p, strategy)
+  end subroutine try_newton
 
   !> Does some W_aa alone allow several answers?
   pure logical function some_wedge(p)

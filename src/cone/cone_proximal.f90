@@ -4,8 +4,8 @@
 !> alpha).
 module cone_proximal
   use base_kinds, only: wp, zero, one
-  use cone_newton, only: newton_solve
-  use cone_scaled, only: scaled_t, evaluate_error
+  use cone_newton, only: newton_solve, step_products
+  use cone_scaled, only: scaled_t, evaluate_error, misfit_of
   use cone_types, only: cone_options_t, certificate_t, late
   implicit none
   private
@@ -14,44 +14,49 @@ module cone_proximal
   integer, parameter, public :: most_loops = 300
   integer, parameter :: few_loops = 60, most_newton = 40
   real(wp), parameter :: first_alpha = 1.0e-1_wp
+  !> Newton steps that must halve the map, where a budget is set.
+  integer, parameter :: few_patience = 6
+  !> A misfit this much less than where the loop stopped: it begins anew there.
+  real(wp), parameter :: much_better = 0.1_wp
 
 contains
 
   !> From r of p to r that meets the tolerance, or the best on the way. plain_first: one Newton
-  !> attempt on W itself; loops: how often on W + alpha I, after it. Where forces must travel
-  !> along a self-stress of the bodies until a contact opens or slips, alpha times the distance
-  !> is the error of a step: it does not fall on the way, so the path goes on from the last
-  !> point, not from the best.
-  subroutine proximal_newton(options, p, plain_first, loops, certificate)
+  !> attempt on W itself; loops: how often on W + alpha I, after it; budget: products with W
+  !> after which it stops. It goes on where it stopped before, unless another method has found
+  !> a much better r since. Where forces must travel along a self-stress of the bodies until a
+  !> contact opens or slips, alpha times the distance is the error of a step: it does not fall
+  !> on the way, so the path goes on from the last point, not from the best.
+  subroutine proximal_newton(options, p, plain_first, loops, budget, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
     logical, intent(in) :: plain_first
     integer, intent(in) :: loops
+    real(wp), intent(in) :: budget
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
     real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: best, last
-    real(wp) :: alpha, norm, goal
-    integer :: outer, steps
+    real(wp) :: alpha, norm, most_products
+    integer :: outer
+    most_products = huge(budget)
+    if (budget < huge(budget)) most_products = certificate%products + budget
     best = p%r
-    alpha = merge(zero, first_alpha, plain_first)
+    alpha = zero
+    if (.not. plain_first) call resume(p, misfit_of(certificate), best, alpha)
     do outer = 1, loops + merge(1, 0, plain_first)
-      if (late(options)) exit
+      if (late(options) .or. certificate%products > most_products) exit
       last = p%r
-      goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
-      call newton_solve(p%w, p%q, p%mu, p%rho, alpha, goal, most_newton, p%r, p%newton, &
-          norm, steps)
-      certificate%newton_steps = certificate%newton_steps + steps
+      call one_newton(options, p, alpha, most_products, norm, certificate)
       trial = certificate
       call evaluate_error(p, options%tolerance, trial)
-      if (trial%error < certificate%error) then
+      certificate%products = trial%products
+      if (misfit_of(trial) < misfit_of(certificate) .or. trial%met) then
         best = p%r
         certificate = trial
       end if
-      if (trial%met) certificate = trial
       if (trial%met) return
       if (.not. alpha > zero) then
-        alpha = first_alpha
-        p%r = best
+        if (loops > 0) call resume(p, misfit_of(certificate), best, alpha)
       else if (norm > 1.0e-3_wp*alpha) then
         alpha = min(one, 4.0_wp*alpha)
         p%r = last
@@ -59,8 +64,49 @@ contains
         alpha = 0.2_wp*alpha
       end if
     end do
+    if (alpha > zero) then
+      p%alpha = alpha
+      p%travel = p%r
+      p%travel_misfit = misfit_of(certificate)
+    end if
     p%r = best
   end subroutine proximal_newton
+
+  !> alpha and r with which the proximal loop begins or goes on; best: that of least misfit.
+  pure subroutine resume(p, misfit, best, alpha)
+    type(scaled_t), intent(inout) :: p
+    real(wp), intent(in) :: misfit, best(:, :)
+    real(wp), intent(out) :: alpha
+    alpha = merge(p%alpha, first_alpha, p%alpha > zero)
+    p%r = best
+    if (.not. p%alpha > zero) return
+    if (misfit > much_better*p%travel_misfit) p%r = p%travel
+  end subroutine resume
+
+  !> Newton on W + alpha I from r of p, its steps and products counted; as many steps as fit in
+  !> most_products, but some.
+  subroutine one_newton(options, p, alpha, most_products, norm, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(inout) :: p
+    real(wp), intent(in) :: alpha, most_products
+    real(wp), intent(out) :: norm
+    type(certificate_t), intent(inout) :: certificate
+    real(wp) :: goal
+    integer :: steps, most, patience
+    most = most_newton
+    patience = 2*most_newton
+    if (most_products < huge(goal)) then
+      most = min(most, max(few_patience, nint((most_products - certificate%products) &
+          /step_products(p%w, p%newton))))
+      patience = few_patience
+    end if
+    goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
+    call newton_solve(p%w, p%q, p%mu, p%rho, alpha, goal, most, patience, p%r, p%newton, norm, &
+        steps)
+    certificate%newton_steps = certificate%newton_steps + steps
+    certificate%products = certificate%products + p%newton%products
+    p%newton%products = zero
+  end subroutine one_newton
 
   !> Where contacts wedge: the law with little friction, which has an answer that Newton finds,
   !> and from there more and more of it (a continuation in mu).
@@ -83,7 +129,10 @@ contains
       p%mu = min(mu, merge(first, reached*factor, .not. reached > zero))
       p%r = kept
       call evaluate_error(p, options%tolerance, trial)
-      if (.not. trial%met) call proximal_newton(options, p, .true., few_loops, trial)
+      if (.not. trial%met) then
+        p%alpha = zero
+        call proximal_newton(options, p, .true., few_loops, huge(one), trial)
+      end if
       if (trial%met) then
         if (.not. any(p%mu < mu)) exit
         reached = maxval(p%mu)
@@ -95,7 +144,9 @@ contains
       end if
     end do
     p%mu = mu
+    p%alpha = zero
     certificate%newton_steps = trial%newton_steps
+    certificate%products = trial%products
     call evaluate_error(p, options%tolerance, trial)
     if (trial%met) then
       certificate = trial

@@ -13,11 +13,13 @@ module cone_scaled
   use cone_sweep, only: find_rho, sweep_contacts
   implicit none
   private
-  public :: scale_problem, sweep_chunk, start_method, evaluate_error
+  public :: scale_problem, sweep_chunk, start_method, evaluate_error, keep_best, misfit_of
 
   !> Sweeps between two evaluations of the error; pairs that the acceleration keeps.
   integer, parameter, public :: chunk = 10
   integer, parameter :: depth = 8
+  !> Blocks of W that are multiplied in the time of a local iteration.
+  real(wp), parameter :: local_weight = 4.0_wp
   integer, parameter, public :: plain_sweeps = 1, anderson_sweeps = 2, momentum_steps = 3
 
   type, public :: scaled_t
@@ -32,6 +34,11 @@ module cone_scaled
     real(wp), allocatable :: before(:, :)
     type(anderson_t) :: memory
     type(newton_work_t) :: newton
+    real(wp), allocatable :: best(:, :)                  !< (d, nc) r of least misfit so far
+    real(wp) :: best_misfit = huge(one)
+    !> Where the proximal loop goes on: alpha (0 = it has not begun), r, the best misfit then.
+    real(wp) :: alpha = zero, travel_misfit = huge(one)
+    real(wp), allocatable :: travel(:, :)
   end type scaled_t
 
 contains
@@ -65,6 +72,21 @@ contains
     end select
   end subroutine start_method
 
+  !> What must fall below the tolerance: the larger of error and eta.
+  pure real(wp) function misfit_of(certificate)
+    type(certificate_t), intent(in) :: certificate
+    misfit_of = max(certificate%error, certificate%eta)
+  end function misfit_of
+
+  !> Keeps r, of which this is the certificate, where its misfit is the least so far.
+  pure subroutine keep_best(p, certificate)
+    type(scaled_t), intent(inout) :: p
+    type(certificate_t), intent(in) :: certificate
+    if (misfit_of(certificate) >= p%best_misfit .and. allocated(p%best)) return
+    p%best_misfit = misfit_of(certificate)
+    p%best = p%r
+  end subroutine keep_best
+
   !> u and the certificate of r as it is.
   subroutine evaluate_error(p, tolerance, certificate)
     type(scaled_t), intent(inout) :: p
@@ -72,6 +94,7 @@ contains
     type(certificate_t), intent(inout) :: certificate
     call p%w%displacements(p%q, p%r, p%u)
     call evaluate_certificate(one, p%mu, p%q, p%r, p%u, tolerance, certificate)
+    certificate%products = certificate%products + one
   end subroutine evaluate_error
 
   !> Some sweeps, the last of them always plain, so that r is in its cones; or steps with
@@ -81,20 +104,23 @@ contains
     type(scaled_t), intent(inout) :: p
     type(certificate_t), intent(inout) :: certificate
     real(wp) :: projected(most_components)
-    integer :: k, a, d, status
+    integer :: k, a, d, status, iterations
     d = size(p%q, 1)
+    iterations = 0
     if (p%method == momentum_steps) then
       do k = 1, chunk
         call gradient_step(p%w, p%q, p%mu, p%r, p%gradient)
       end do
       certificate%sweeps = certificate%sweeps + chunk
+      certificate%products = certificate%products + chunk
       return
     end if
     do k = 1, chunk
       if (p%method == anderson_sweeps) p%before = p%r
       call sweep_contacts(options, p%w, p%mu, p%rho, p%q, p%r, p%u, p%status, p%change, &
-          certificate%local_iterations)
+          iterations)
       certificate%sweeps = certificate%sweeps + 1
+      certificate%products = certificate%products + one
       if (p%method == plain_sweeps .or. k == chunk) cycle
       call extrapolate(p%memory, size(p%r), p%before, p%r)
       do a = 1, size(p%mu)
@@ -102,6 +128,8 @@ contains
         p%r(:, a) = projected(:d)
       end do
     end do
+    certificate%local_iterations = certificate%local_iterations + iterations
+    certificate%products = certificate%products + local_weight*iterations/size(p%w%column)
   end subroutine sweep_chunk
 
 end module cone_scaled

@@ -1,37 +1,56 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which method comes next in a group of contacts: the rule of AUTO. It asks for sizes, costs
-!> and errors only. Costs are counted in sweeps.
+!> and misfits only. Costs are counted in products with W; progress is the logarithm of the
+!> misfit that a method took away, over what that cost.
 module cone_strategy
-  use base_kinds, only: wp, half
-  use cone_newton, only: plan_newton
-  use cone_scaled, only: scaled_t, start_method, chunk, plain_sweeps, anderson_sweeps, &
-      momentum_steps
+  use base_kinds, only: wp, zero, one, half
+  use cone_newton, only: plan_newton, step_products
+  use cone_scaled, only: scaled_t, start_method, keep_best, misfit_of, chunk, plain_sweeps, &
+      anderson_sweeps, momentum_steps
   use cone_types, only: cone_options_t, certificate_t, solver_anderson, solver_gs, &
       solver_nesterov
   implicit none
   private
-  public :: choose_method, after_failed_newton
+  public :: choose_method, after_failed_newton, newton_budget, products_left
 
   integer, parameter :: patience = 30          !< sweeps before the acceleration
-  integer, parameter :: span = 100             !< sweeps that must halve the error
-  real(wp), parameter :: cheap = 80.0_wp       !< sweeps: a Newton of that cost comes first
+  real(wp), parameter :: first_span = 400.0_wp !< products that must halve the misfit
+  real(wp), parameter :: cheap = 80.0_wp       !< products: a Newton of that cost comes first
+  !> Accelerated sweeps go on while no more than that is left of them at their rate.
+  real(wp), parameter :: promising = 100.0_wp
   real(wp), parameter :: largest_newton = 1.0e8_wp  !< numbers of the matrix of a step
-  !> Newton is expected to take about fifteen steps; a sweep takes six operations a number of W.
-  real(wp), parameter :: newton_weight = 15.0_wp, sweep_weight = 6.0_wp
-  !> A proximal loop takes several times that; steps with momentum get as much before it.
-  real(wp), parameter :: momentum_share = 1.0_wp
+  !> Newton is expected to take about that many steps.
+  !> The proximal loop takes a few times that.
+  real(wp), parameter :: newton_weight = 15.0_wp, loops_weight = 5.0_wp
+  !> A misfit that has fallen by so much is worth another attempt of Newton, or that momentum
+  !> begins anew: its memory is worth hundreds of steps.
+  real(wp), parameter :: much_less = 0.1_wp
+  !> What is left at the rate of the others when a plan for Newton is made; of many unknowns
+  !> the plan itself takes as long as so many products.
+  real(wp), parameter :: plan_products = 150.0_wp
+  integer, parameter :: many_unknowns = 300
+  !> Of what other methods have spent Newton and the proximal loop get that much; more where
+  !> nothing else makes progress.
+  real(wp), parameter :: share = 1.0_wp/3.0_wp, stalled_share = 1.0_wp
 
   !> What is known of the iterations so far.
   type, public :: strategy_t
     logical :: newton_due = .false.
     logical :: proximal_due = .false.    !< with the proximal loop behind it
     integer :: newtons = 0               !< attempts
-    real(wp) :: wait = 0.0_wp            !< no Newton, no other method before that many sweeps
-    real(wp) :: start = huge(1.0_wp)     !< error at sweep `patience`
-    real(wp) :: best = huge(1.0_wp)
-    real(wp) :: marked = huge(1.0_wp)    !< error at the last mark
-    integer :: mark = 0
-    logical :: stalled = .false.
+    real(wp) :: newton_spent = zero      !< products of all of them
+    real(wp) :: newton_end = zero        !< products at the end of the last
+    real(wp) :: newton_rate = zero       !< progress a product of the last
+    real(wp) :: newton_misfit = zero     !< at its end
+    !> Products and misfits from which progress is measured, and those that come next.
+    real(wp) :: from(2) = zero, from_misfit(2) = huge(one)
+    real(wp) :: span = first_span
+    logical :: stalled = .false.         !< the last span did not halve the misfit
+    logical :: judged = .false.          !< a span has just ended
+    !> Accelerated sweeps in the place of momentum that stalls: until then. Momentum goes on
+    !> at r (d, nc) where it was, unless the misfit became much less than at their start.
+    real(wp) :: turn_end = zero, turn_misfit = zero
+    real(wp), allocatable :: left_at(:, :)
   end type strategy_t
 
 contains
@@ -43,67 +62,159 @@ contains
     type(scaled_t), intent(inout) :: p
     type(strategy_t), intent(inout) :: strategy
     strategy%newton_due = .false.
-    strategy%best = min(strategy%best, certificate%error)
-    if (certificate%sweeps <= patience) strategy%start = certificate%error
+    call keep_best(p, certificate)
     if (options%solver == solver_gs) return
-    if (certificate%sweeps == patience) call start_method(p, &
-        merge(momentum_steps, anderson_sweeps, options%solver == solver_nesterov))
-    if (options%solver == solver_nesterov .or. certificate%sweeps < strategy%wait) return
-    if (certificate%sweeps >= strategy%mark + span) then
-      strategy%stalled = certificate%error > half*strategy%marked
-      strategy%marked = certificate%error
-      strategy%mark = certificate%sweeps
-      if (strategy%stalled) call start_method(p, other_method(options, p%method))
+    if (certificate%sweeps == patience) then
+      call start_method(p, &
+          merge(momentum_steps, anderson_sweeps, options%solver == solver_nesterov))
+      call start_measure(certificate%products, misfit_of(certificate), strategy)
     end if
-    if (options%solver == solver_anderson .or. certificate%sweeps < 2*chunk) return
-    call plan_newton(p%w, p%newton)
-    strategy%newton_due = newton_pays(options, p, certificate, strategy)
-    strategy%proximal_due = strategy%newtons > 0 .or. newton_cost(p) <= cheap
+    if (options%solver == solver_nesterov .or. certificate%sweeps < 2*chunk) return
+    call measure(p%best_misfit, certificate%products, strategy)
+    if (options%solver == solver_anderson) then
+      if (strategy%judged .and. strategy%stalled) call start_method(p, &
+          merge(plain_sweeps, anderson_sweeps, p%method == anderson_sweeps))
+      return
+    end if
+    call ask_for_newton(options, certificate, p, strategy)
+    if (.not. strategy%newton_due .and. certificate%sweeps > patience) &
+        call choose_sweeps(options, certificate%products, p, strategy)
   end subroutine choose_method
 
-  !> After a Newton that failed: momentum, and how long (half of the sweeps that are left, at
-  !> most).
-  subroutine after_failed_newton(options, certificate, p, strategy)
+  !> Progress is measured from here.
+  pure subroutine start_measure(now, misfit, strategy)
+    real(wp), intent(in) :: now, misfit
+    type(strategy_t), intent(inout) :: strategy
+    strategy%from = now
+    strategy%from_misfit = misfit
+    strategy%stalled = .false.
+  end subroutine start_measure
+
+  !> Moves the two places from which progress is measured, at the end of a span. Spans grow with
+  !> what has been spent.
+  pure subroutine measure(misfit, now, strategy)
+    real(wp), intent(in) :: misfit, now
+    type(strategy_t), intent(inout) :: strategy
+    strategy%judged = now - strategy%from(2) >= max(strategy%span, &
+        1.5_wp*(strategy%from(2) - strategy%from(1)))
+    if (.not. strategy%judged) return
+    strategy%stalled = misfit > half*strategy%from_misfit(2)
+    strategy%from = [strategy%from(2), now]
+    strategy%from_misfit = [strategy%from_misfit(2), misfit]
+  end subroutine measure
+
+  !> Products that are left at the rate measured, huge where there is no progress.
+  pure real(wp) function products_left(tolerance, best, now, strategy) result(left)
+    real(wp), intent(in) :: tolerance, best, now
+    type(strategy_t), intent(in) :: strategy
+    left = huge(left)
+    if (.not. best < strategy%from_misfit(1)) return
+    if (strategy%from_misfit(1) >= huge(left)) return
+    left = (now - strategy%from(1))*log(best/tolerance)/log(strategy%from_misfit(1)/best)
+  end function products_left
+
+  !> Momentum or accelerated sweeps. The sweeps begin, and stay as long as they promise to be
+  !> done soon; they take a turn of half a span where momentum stalls.
+  subroutine choose_sweeps(options, now, p, strategy)
+    type(cone_options_t), intent(in) :: options
+    real(wp), intent(in) :: now
+    type(scaled_t), intent(inout) :: p
+    type(strategy_t), intent(inout) :: strategy
+    if (p%method == momentum_steps) then
+      if (.not. (strategy%judged .and. strategy%stalled)) return
+      strategy%left_at = p%r
+      strategy%turn_misfit = p%best_misfit
+      strategy%turn_end = now + half*strategy%span
+      strategy%span = 2.0_wp*strategy%span
+      p%r = p%best
+      call start_method(p, anderson_sweeps)
+    else
+      if (now < strategy%turn_end) return
+      if (products_left(options%tolerance, p%best_misfit, now, strategy) <= promising) return
+      if (allocated(strategy%left_at) .and. p%best_misfit > much_less*strategy%turn_misfit) then
+        p%r = strategy%left_at
+        p%method = momentum_steps
+      else
+        p%r = p%best
+        call start_method(p, momentum_steps)
+      end if
+    end if
+    call start_measure(now, p%best_misfit, strategy)
+  end subroutine choose_sweeps
+
+  !> Is Newton due? Its plan is made when it may be. Newton alone is tried again when the misfit
+  !> has become much smaller: where W is singular its first step tells so.
+  subroutine ask_for_newton(options, certificate, p, strategy)
     type(cone_options_t), intent(in) :: options
     type(certificate_t), intent(in) :: certificate
     type(scaled_t), intent(inout) :: p
     type(strategy_t), intent(inout) :: strategy
-    strategy%newtons = strategy%newtons + 1
-    strategy%wait = max(3.0_wp*certificate%sweeps, &
-        certificate%sweeps + momentum_share*newton_cost(p))
-    strategy%wait = min(strategy%wait, half*(certificate%sweeps + options%max_sweeps))
-    call start_method(p, momentum_steps)
-  end subroutine after_failed_newton
-
-  !> Where sweeps stall, another way to go on.
-  pure integer function other_method(options, method)
-    type(cone_options_t), intent(in) :: options
-    integer, intent(in) :: method
-    other_method = anderson_sweeps
-    if (method == anderson_sweeps) &
-        other_method = merge(plain_sweeps, momentum_steps, options%solver == solver_anderson)
-  end function other_method
+    real(wp) :: left, since, cost
+    left = products_left(options%tolerance, p%best_misfit, certificate%products, strategy)
+    if (size(p%q) > many_unknowns .and. min(left, certificate%products) < plan_products) return
+    call plan_newton(p%w, p%newton)
+    if (p%newton%numbers > largest_newton) return
+    cost = newton_cost(p)
+    since = certificate%products - strategy%newton_end
+    if (strategy%newtons == 0) then
+      strategy%proximal_due = cost <= cheap
+      strategy%newton_due = cost <= cheap .or. since >= cost*min(one, max(share, cost/left))
+    else
+      strategy%proximal_due = since >= proximal_wait(options%tolerance, cost, left, p, strategy)
+      strategy%newton_due = strategy%proximal_due .or. &
+          p%best_misfit < much_less*strategy%newton_misfit
+    end if
+    strategy%newton_due = strategy%newton_due .and. (strategy%stalled .or. left > cost)
+  end subroutine ask_for_newton
 
   pure real(wp) function newton_cost(p)
     type(scaled_t), intent(in) :: p
-    newton_cost = newton_weight*p%newton%flops/(sweep_weight*size(p%w%block))
+    newton_cost = newton_weight*step_products(p%w, p%newton)
   end function newton_cost
 
-  !> Newton pays where sweeps stall, or would cost more at their rate.
-  pure logical function newton_pays(options, p, certificate, strategy)
-    type(cone_options_t), intent(in) :: options
+  !> Products that the next attempt of Newton and the proximal loop may take.
+  pure real(wp) function newton_budget(p, now, strategy)
     type(scaled_t), intent(in) :: p
-    type(certificate_t), intent(in) :: certificate
+    real(wp), intent(in) :: now
     type(strategy_t), intent(in) :: strategy
-    real(wp) :: left
-    newton_pays = .false.
-    if (p%newton%numbers > largest_newton) return
-    if (certificate%sweeps < cheap .and. newton_cost(p) > cheap) return
-    left = options%max_sweeps
-    if (certificate%sweeps <= patience) left = 10*span
-    if (strategy%best < strategy%start) left = min(left, (certificate%sweeps - patience) &
-        *log(options%tolerance/strategy%best)/log(strategy%best/strategy%start))
-    newton_pays = strategy%stalled .or. left > newton_cost(p)
-  end function newton_pays
+    newton_budget = newton_cost(p)
+    if (newton_budget <= cheap) newton_budget = loops_weight*newton_budget
+    newton_budget = max(newton_budget, merge(stalled_share, share, strategy%stalled) &
+        *(now - strategy%newton_spent))
+  end function newton_budget
+
+  !> Products of other methods before the proximal loop is tried (again): a few times what
+  !> Newton takes, and three times as much as all attempts, or half as much again where the
+  !> others stall; none where the last attempt has made more progress than they do.
+  pure real(wp) function proximal_wait(tolerance, cost, left, p, strategy) result(wait)
+    real(wp), intent(in) :: tolerance, cost, left
+    type(scaled_t), intent(in) :: p
+    type(strategy_t), intent(in) :: strategy
+    wait = max(merge(2.0_wp, 4.0_wp, strategy%stalled)*cost, &
+        strategy%newton_spent/merge(stalled_share, share, strategy%stalled))
+    if (.not. strategy%newton_rate > zero) return
+    if (log(p%best_misfit/tolerance)/strategy%newton_rate < left) wait = zero
+  end function proximal_wait
+
+  !> After a Newton that failed, which began at `began` products and misfit `before`: momentum
+  !> goes on from where it was, or from the best point if Newton has found a much better one.
+  subroutine after_failed_newton(began, before, now, p, strategy)
+    real(wp), intent(in) :: began, before, now
+    type(scaled_t), intent(inout) :: p
+    type(strategy_t), intent(inout) :: strategy
+    strategy%newtons = strategy%newtons + 1
+    strategy%newton_spent = strategy%newton_spent + (now - began)
+    strategy%newton_end = now
+    strategy%newton_rate = zero
+    strategy%newton_misfit = p%best_misfit
+    strategy%from = strategy%from + (now - began)
+    strategy%turn_end = strategy%turn_end + (now - began)
+    if (p%best_misfit <= half*before) &
+        strategy%newton_rate = log(before/p%best_misfit)/max(one, now - began)
+    if (p%method == momentum_steps .and. p%best_misfit > much_less*before) return
+    p%r = p%best
+    call start_method(p, momentum_steps)
+    call start_measure(now, p%best_misfit, strategy)
+  end subroutine after_failed_newton
 
 end module cone_strategy

@@ -53,6 +53,9 @@ module cone_types
     integer :: local_iterations = 0
     integer :: active_set_solves = 0        !< direct solves for given statuses
     integer :: newton_steps = 0
+    !> Work of the solver on blocks, in products with all of W: a sweep, a step with momentum,
+    !> an evaluation of the error is one; a Newton step counts its operations.
+    real(wp) :: products = zero
     integer :: worst = 0           !< where it failed: the contact with the largest residual
     integer :: wedged = 0          !< contacts that push with mu |W_nt| > W_nn
     integer :: first_wedged = 0
