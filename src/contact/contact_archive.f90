@@ -5,7 +5,7 @@ module contact_archive
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero
   use cone_types, only: certificate_t
-  use contact_condense, only: size_schur_inverse
+  use contact_condense, only: size_interface_vectors
   use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
   use contact_rows, only: rows_t, start_rows, size_points, set_tangents, row_kinds
   use contact_types, only: contact_t, tally_t
@@ -74,7 +74,7 @@ contains
     if (size(contact%interface_node) == n) return
     deallocate (contact%interface_node)
     allocate (contact%interface_node(n))
-    call size_schur_inverse(contact)
+    call size_interface_vectors(contact)
   end subroutine size_interface
 
   !> A list of rows with its reactions.

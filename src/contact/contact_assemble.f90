@@ -11,6 +11,7 @@ module contact_assemble
   use contact_rows, only: rows_t, start_rows, add_row, copy_row, swap_rows, same_geometry, &
       carry_reactions, take_reactions, comes_before, find_slots
   use contact_types, only: contact_t
+  use linalg_bodies, only: body_blocks_t
   use model_data, only: model_t
   implicit none
   private
@@ -242,11 +243,12 @@ contains
   !> x = x + A f.
   pure subroutine add_product(n, a, f, x)
     integer, intent(in) :: n
-    real(wp), intent(in) :: a(n, n), f(n)
+    type(body_blocks_t), intent(in) :: a
+    real(wp), intent(in) :: f(n)
     real(wp), intent(inout) :: x(n)
     integer :: j
     do j = 1, n
-      if (abs(f(j)) > zero) x = x + f(j)*a(:, j)
+      if (abs(f(j)) > zero) call a%add_column(j, f(j), x)
     end do
   end subroutine add_product
 

@@ -4,14 +4,15 @@
 !> elimination).
 module contact_condense
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use base_checks, only: checks_on, assert, assert_shape
+  use base_checks, only: checks_on, assert
   use base_kinds, only: wp, zero, one
   use contact_kinematics, only: row_of_h
   use contact_rows, only: rows_t
   use contact_types, only: contact_t
+  use linalg_bodies, only: body_blocks_t
   implicit none
   private
-  public :: interface_outgrown, make_interface, size_schur_inverse, constrain_interface, &
+  public :: interface_outgrown, make_interface, size_interface_vectors, constrain_interface, &
       clear_constrained, build_w
 
 contains
@@ -26,28 +27,48 @@ contains
     end do
   end function interface_outgrown
 
-  !> Makes the nodes marked in taken (nodes) the interface nodes.
+  !> Makes the nodes marked in taken (nodes) the interface nodes, body by body.
   subroutine make_interface(contact, taken)
     type(contact_t), intent(inout) :: contact
     logical, intent(in) :: taken(:)
-    integer :: k
+    integer :: k, body, n
     contact%interface_node = pack([(k, k=1, size(taken))], taken)
+    if (allocated(contact%body)) then
+      associate (node => contact%interface_node)
+        n = 0
+        do body = 1, maxval([0, contact%body])
+          if (n == size(node)) exit
+          call take_body(contact%body, body, taken, node, n)
+        end do
+      end associate
+    end if
     contact%slot = 0
     contact%slot(contact%interface_node) = [(k, k=1, size(contact%interface_node))]
     contact%tally%interface_changes = contact%tally%interface_changes + 1
-    call size_schur_inverse(contact)
+    call size_interface_vectors(contact)
   end subroutine make_interface
 
-  !> S^-1 for the interface as it is, yet to be filled.
-  subroutine size_schur_inverse(contact)
+  !> The nodes of a body that are taken, appended to node; n: how many there are.
+  pure subroutine take_body(of, body, taken, node, n)
+    integer, intent(in) :: of(:), body
+    logical, intent(in) :: taken(:)
+    integer, intent(inout) :: node(:), n
+    integer :: i
+    do i = 1, size(of)
+      if (of(i) /= body .or. .not. taken(i)) cycle
+      n = n + 1
+      node(n) = i
+    end do
+  end subroutine take_body
+
+  !> Work space for the interface as it is.
+  subroutine size_interface_vectors(contact)
     type(contact_t), intent(inout) :: contact
-    integer :: dofs
-    dofs = contact%dim*size(contact%interface_node)
-    if (allocated(contact%schur_inverse)) &
-        deallocate (contact%schur_inverse, contact%column, contact%x_end)
-    allocate (contact%schur_inverse(dofs, dofs), contact%column(dofs))
-    allocate (contact%x_end(contact%dim, size(contact%interface_node)))
-  end subroutine size_schur_inverse
+    integer :: m
+    m = size(contact%interface_node)
+    if (allocated(contact%column)) deallocate (contact%column, contact%x_end)
+    allocate (contact%column(contact%dim*m), contact%x_end(contact%dim, m))
+  end subroutine size_interface_vectors
 
   !> To be called with a new S^-1: dofs of the list, (2, *) component and node, do not move,
   !> whatever the force. W must be built from it.
@@ -58,8 +79,7 @@ contains
     contact%constrained = pack(contact%dim*(contact%slot(list(2, :)) - 1) + list(1, :), &
         contact%slot(list(2, :)) > 0)
     do k = 1, size(contact%constrained)
-      contact%schur_inverse(contact%constrained(k), :) = zero
-      contact%schur_inverse(:, contact%constrained(k)) = zero
+      call contact%schur_inverse%clear_row(contact%constrained(k))
     end do
     contact%w_is_current = .false.
   end subroutine constrain_interface
@@ -107,8 +127,7 @@ contains
     m = contact%dim*size(contact%interface_node)
     associate (rows => contact%rows)
       points = rows%first(rows%n + 1) - 1
-      call assert_shape(shape(contact%schur_inverse), [m, m], place, &
-          'contact%schur_inverse')
+      call assert(contact%schur_inverse%rows() == m, place, 'S^-1 is that of the interface')
       call assert(all(rows%slot(:points) >= 1 .and. contact%dim*rows%slot(:points) <= m), &
           place, 'every point of a row is an interface node')
       call assert(all(ieee_is_finite(rows%weight(:points))) .and. &
@@ -119,21 +138,32 @@ contains
 
   !> Rows whose normal flexibility n' S^-1 n is zero to round-off.
   pure subroutine mark_rigid(schur_inverse, rows)
-    real(wp), intent(in) :: schur_inverse(:, :)
+    type(body_blocks_t), intent(in) :: schur_inverse
     type(rows_t), intent(inout) :: rows
     real(wp) :: scale, normal, weight(rows%dim*rows%most_points)
-    integer :: a, i, j, k, n, dof(rows%dim*rows%most_points)
+    integer :: a, b, i, j, k, n, start, behind, dof(rows%dim*rows%most_points)
     scale = zero
-    do i = 1, size(schur_inverse, 1)
-      scale = max(scale, schur_inverse(i, i))
+    do k = 1, size(schur_inverse%block)
+      associate (a => schur_inverse%block(k)%a)
+        do i = 1, size(a, 1)
+          scale = max(scale, a(i, i))
+        end do
+      end associate
     end do
     do a = 1, rows%n
       call row_of_h(rows, a, 1, dof, weight, n)
       normal = zero
       do k = 1, n
-        do j = 1, n
-          normal = normal + weight(j)*weight(k)*schur_inverse(dof(j), dof(k))
-        end do
+        b = 1
+        if (size(schur_inverse%block) > 1) b = schur_inverse%body(dof(k))
+        start = schur_inverse%first(b)
+        behind = schur_inverse%first(b + 1)
+        associate (f => schur_inverse%block(b)%a)
+          do j = 1, n
+            if (dof(j) < start .or. dof(j) >= behind) cycle
+            normal = normal + weight(j)*weight(k)*f(dof(j) - start + 1, dof(k) - start + 1)
+          end do
+        end associate
       end do
       rows%is_rigid(a) = normal <= epsilon(one)*scale
     end do
@@ -181,9 +211,15 @@ contains
         w => contact%w%matrix)
       do j = 1, d*contact%n
         column = zero
-        do k = 1, contact%h_size(j)
-          column = column + weight(k, j)*contact%schur_inverse(:, dof(k, j))
-        end do
+        if (size(contact%schur_inverse%block) == 1) then
+          do k = 1, contact%h_size(j)
+            column = column + weight(k, j)*contact%schur_inverse%block(1)%a(:, dof(k, j))
+          end do
+        else
+          do k = 1, contact%h_size(j)
+            call contact%schur_inverse%add_column(dof(k, j), weight(k, j), column)
+          end do
+        end if
         do i = 1, j
           entry = zero
           do k = 1, contact%h_size(i)

@@ -8,6 +8,7 @@ module contact_types
   use contact_pairing, only: pairing_slot_t, late_t
   use contact_rows, only: rows_t, row_kinds
   use contact_rule, only: contact_rule_t
+  use linalg_bodies, only: body_blocks_t
   implicit none
   private
 
@@ -65,8 +66,9 @@ module contact_types
     real(wp), allocatable :: free(:, :), u_end(:, :)
     real(wp), allocatable :: x_end(:, :)          !< (dim, m) motion of the interface [L]
     real(wp), allocatable :: placed(:, :)         !< (dim, nodes): contact_velocity
-    !> (dim m, dim m) S^-1 of the interface, constrained dofs cleared [L/F]
-    real(wp), allocatable :: schur_inverse(:, :)
+    integer, allocatable :: body(:)               !< (nodes) bodies: components of the graph
+    !> (dim m, dim m) S^-1 of the interface by bodies, constrained dofs cleared [L/F]
+    type(body_blocks_t) :: schur_inverse
     ! The condensed problem: rows that are not rigid.
     integer :: n = 0
     integer, allocatable :: row_of(:)             !< (n)

@@ -15,6 +15,7 @@ module run_data
   use cone_types, only: cone_options_t
   use deck_data, only: deck_t
   use deck_names, only: step_fixed
+  use linalg_bodies, only: body_blocks_t
   use linalg_graph, only: block_matrix_t
   use linalg_solver, only: solver_t, solver_options_t
   use model_data, only: model_t
@@ -64,7 +65,7 @@ module run_data
   type, public :: operator_t
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
-    real(wp), allocatable :: schur_inverse(:, :)
+    type(body_blocks_t) :: schur_inverse
     real(wp), allocatable :: flexibility(:, :)   !< only with rigid parts: rigid_step_t
   end type operator_t
   !> Rigid parts in a step (run_rigid).

@@ -9,6 +9,7 @@ module run_operator
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
+  use linalg_bodies, only: body_blocks_t, size_blocks, move_blocks
   use linalg_graph, only: block_matrix_t
   use linalg_registry, only: make_solver, engine_diagonal
   use linalg_solver, only: solver_t, solver_options_t, work_of
@@ -89,13 +90,13 @@ contains
     run%stage_in_use = stage
     call move_alloc(run%solver, kept%solver)
     call move_matrix(run%matrix, kept%matrix)
-    call move_alloc(run%contact%schur_inverse, kept%schur_inverse)
+    call move_blocks(run%contact%schur_inverse, kept%schur_inverse)
     call move_alloc(run%other%solver, run%solver)
     call move_matrix(run%other%matrix, run%matrix)
-    call move_alloc(run%other%schur_inverse, run%contact%schur_inverse)
+    call move_blocks(run%other%schur_inverse, run%contact%schur_inverse)
     call move_alloc(kept%solver, run%other%solver)
     call move_matrix(kept%matrix, run%other%matrix)
-    call move_alloc(kept%schur_inverse, run%other%schur_inverse)
+    call move_blocks(kept%schur_inverse, run%other%schur_inverse)
     if (allocated(run%rigid)) then
       call move_alloc(run%rigid%flexibility, kept%flexibility)
       call move_alloc(run%other%flexibility, run%rigid%flexibility)
@@ -161,7 +162,7 @@ contains
     integer, intent(in) :: number
     logical, intent(in) :: again
     type(status_t), intent(inout) :: status
-    integer :: m
+    integer :: k
     associate (stage => run%scheme%stage(number))
       if (run%solver%takes_diagonal) then
         call diagonal_matrix(run%system, stage%c_m, run%matrix)
@@ -181,13 +182,18 @@ contains
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
-    m = size(run%contact%interface_node)
-    if (m == 0 .or. failed(status)) return
-    call size_flexibility(run%system%dim*m, run%contact%schur_inverse)
+    if (size(run%contact%interface_node) == 0 .or. failed(status)) return
     if (allocated(run%rigid)) then
+      call size_one_body(run%system%dim*size(run%contact%interface_node), &
+          run%contact%schur_inverse)
       call keep_flexibility(run)
     else
-      call run%solver%flexibility(run%contact%schur_inverse)
+      associate (inverse => run%contact%schur_inverse)
+        call size_blocks(run%solver%schur, inverse)
+        do k = 1, size(inverse%block)
+          call run%solver%body_flexibility(k, inverse%block(k)%a)
+        end do
+      end associate
       call constrain_interface(run%contact, run%system%fixed_list)
     end if
   end subroutine factor_stage
@@ -221,17 +227,15 @@ contains
     end if
   end function kept_nodes
 
-  !> That of the matrix beside the one in use is not sized with the interface.
-  !> (m, m) dofs.
-  subroutine size_flexibility(m, schur_inverse)
+  !> m dofs. Nodes of rigid parts couple whatever they touch.
+  subroutine size_one_body(m, schur_inverse)
     integer, intent(in) :: m
-    real(wp), allocatable, intent(inout) :: schur_inverse(:, :)
-    if (allocated(schur_inverse)) then
-      if (size(schur_inverse, 1) == m) return
-      deallocate (schur_inverse)
+    type(body_blocks_t), intent(inout) :: schur_inverse
+    if (allocated(schur_inverse%block)) then
+      if (schur_inverse%rows() == m) return
     end if
-    allocate (schur_inverse(m, m))
-  end subroutine size_flexibility
+    call schur_inverse%set_one_body(m)
+  end subroutine size_one_body
 
   subroutine shift_matrix(run)
     type(run_t), intent(inout) :: run
