@@ -6,6 +6,7 @@ module contact_assemble
   use cone_types, only: most_components
   use contact_features, only: smooth_angle
   use contact_kinematics, only: relative_displacement
+  use contact_local, only: move_by
   use contact_pairing, only: late_t
   use contact_ramp, only: ramp_floor
   use contact_rows, only: rows_t, start_rows, add_row, copy_row, swap_rows, same_geometry, &
@@ -218,7 +219,14 @@ contains
     integer :: b, n
     is_complete = .true.
     contact%x_end = x_free
-    if (acting) call add_product(size(force), contact%schur_inverse, force, contact%x_end)
+    if (acting) then
+      if (allocated(contact%local)) then
+        call move_by(contact, force)
+        contact%x_end = contact%x_end + contact%local%motion
+      else
+        call add_product(size(force), contact%schur_inverse, force, contact%x_end)
+      end if
+    end if
     associate (spare => contact%spare)
       do b = 1, spare%n
         d = relative_displacement(spare, b, spare%slot, contact%x_end)
@@ -248,7 +256,12 @@ contains
     real(wp), intent(inout) :: x(n)
     integer :: j
     do j = 1, n
-      if (abs(f(j)) > zero) call a%add_column(j, f(j), x)
+      if (.not. abs(f(j)) > zero) cycle
+      if (size(a%block) == 1) then
+        x = x + f(j)*a%block(1)%a(:, j)
+      else
+        call a%add_column(j, f(j), x)
+      end if
     end do
   end subroutine add_product
 

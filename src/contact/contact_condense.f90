@@ -7,13 +7,14 @@ module contact_condense
   use base_checks, only: checks_on, assert
   use base_kinds, only: wp, zero, one
   use contact_kinematics, only: row_of_h
+  use contact_local, only: clear_held, mark_rigid_near, size_near_w, fill_near_w
   use contact_rows, only: rows_t
   use contact_types, only: contact_t
   use linalg_bodies, only: body_blocks_t
   implicit none
   private
   public :: interface_outgrown, make_interface, size_interface_vectors, constrain_interface, &
-      clear_constrained, build_w
+      clear_constrained, build_w, mean_flexibility
 
 contains
 
@@ -78,9 +79,13 @@ contains
     integer :: k
     contact%constrained = pack(contact%dim*(contact%slot(list(2, :)) - 1) + list(1, :), &
         contact%slot(list(2, :)) > 0)
-    do k = 1, size(contact%constrained)
-      call contact%schur_inverse%clear_row(contact%constrained(k))
-    end do
+    if (allocated(contact%local)) then
+      call clear_held(contact, contact%local%near)
+    else
+      do k = 1, size(contact%constrained)
+        call contact%schur_inverse%clear_row(contact%constrained(k))
+      end do
+    end if
     contact%w_is_current = .false.
   end subroutine constrain_interface
 
@@ -105,7 +110,11 @@ contains
     contact%tally%w_builds = contact%tally%w_builds + 1
     contact%w_is_current = .true.
     associate (rows => contact%rows)
-      call mark_rigid(contact%schur_inverse, rows)
+      if (allocated(contact%local)) then
+        call mark_rigid_near(contact)
+      else
+        call mark_rigid(contact%schur_inverse, rows)
+      end if
       call size_problem(contact, count(rows%is_active(:rows%n) .and. &
           .not. rows%is_rigid(:rows%n)))
       k = 0
@@ -116,8 +125,24 @@ contains
         contact%mu(k) = merge(zero, rows%mu(a), contact%rule%is_frictionless)
       end do
     end associate
-    call fill_w(contact)
+    call list_h(contact)
+    if (allocated(contact%local)) then
+      call size_near_w(contact)
+      call fill_near_w(contact)
+    else
+      call fill_w(contact)
+    end if
   end subroutine build_w
+
+  !> Mean diagonal of W [L/F].
+  pure real(wp) function mean_flexibility(contact)
+    type(contact_t), intent(in) :: contact
+    if (allocated(contact%local)) then
+      mean_flexibility = contact%local%w%mean_diagonal()
+    else
+      mean_flexibility = contact%w%mean_diagonal()
+    end if
+  end function mean_flexibility
 
   !> Assertions on what W is made of: S^-1 of the interface as it is, rows on it alone.
   subroutine check_points(contact)
@@ -127,7 +152,8 @@ contains
     m = contact%dim*size(contact%interface_node)
     associate (rows => contact%rows)
       points = rows%first(rows%n + 1) - 1
-      call assert(contact%schur_inverse%rows() == m, place, 'S^-1 is that of the interface')
+      if (.not. allocated(contact%local)) call assert(contact%schur_inverse%rows() == m, &
+          place, 'S^-1 is that of the interface')
       call assert(all(rows%slot(:points) >= 1 .and. contact%dim*rows%slot(:points) <= m), &
           place, 'every point of a row is an interface node')
       call assert(all(ieee_is_finite(rows%weight(:points))) .and. &
@@ -174,12 +200,21 @@ contains
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: n
     integer :: rows, dofs
+    logical :: is_local
     dofs = contact%dim*contact%rows%most_points
-    if (contact%n == n .and. allocated(contact%w%matrix)) then
-      if (size(contact%h_dof, 1) >= dofs) return
+    if (contact%n == n .and. allocated(contact%q)) then
+      is_local = allocated(contact%local)
+      if (is_local) is_local = allocated(contact%local%left_out)
+      if (size(contact%h_dof, 1) >= dofs .and. (is_local .neqv. contact%w%contacts == n)) return
     end if
     contact%n = n
-    call contact%w%resize(contact%d, n)
+    if (allocated(contact%local)) then
+      if (allocated(contact%local%left_out)) deallocate (contact%local%left_out)
+      if (allocated(contact%local%next)) deallocate (contact%local%next)
+      allocate (contact%local%left_out(contact%d, n), contact%local%next(n))
+    else
+      call contact%w%resize(contact%d, n)
+    end if
     if (allocated(contact%q)) deallocate (contact%q, contact%mu, contact%r, contact%row_of, &
         contact%h_dof, contact%h_weight, contact%h_size)
     rows = contact%d*n
@@ -194,10 +229,9 @@ contains
     allocate (contact%h_size(rows))
   end subroutine size_problem
 
-  !> W = H S^-1 H', a column of S^-1 H' at a time; both triangles.
-  pure subroutine fill_w(contact)
+  !> Rows of H by their dofs and weights.
+  pure subroutine list_h(contact)
     type(contact_t), intent(inout) :: contact
-    real(wp) :: entry
     integer :: i, j, k, d
     d = contact%d
     do j = 1, contact%n
@@ -207,6 +241,14 @@ contains
             contact%h_weight(:, i), contact%h_size(i))
       end do
     end do
+  end subroutine list_h
+
+  !> W = H S^-1 H', a column of S^-1 H' at a time; both triangles.
+  pure subroutine fill_w(contact)
+    type(contact_t), intent(inout) :: contact
+    real(wp) :: entry
+    integer :: i, j, k, d
+    d = contact%d
     associate (dof => contact%h_dof, weight => contact%h_weight, column => contact%column, &
         w => contact%w%matrix)
       do j = 1, d*contact%n

@@ -22,6 +22,7 @@ module linalg_solver
   type, public :: solver_options_t
     character(name_length) :: engine = 'AUTO'
     character(name_length) :: order = 'AUTO'
+    character(5) :: contact_storage = 'AUTO'   !< of W: AUTO, DENSE, BLOCK, NONE
     integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
     !> A pivot below this share of its own diagonal before elimination counts as null: its
     !> unknown is set to zero. 0 = null pivots are an error.

@@ -17,6 +17,7 @@ module run_data
   use deck_names, only: step_fixed
   use linalg_bodies, only: body_blocks_t
   use linalg_graph, only: block_matrix_t
+  use linalg_near, only: near_t
   use linalg_solver, only: solver_t, solver_options_t
   use model_data, only: model_t
   use model_state, only: state_t
@@ -66,6 +67,7 @@ module run_data
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
     type(body_blocks_t) :: schur_inverse
+    type(near_t) :: near                         !< in its place: contact_local
     real(wp), allocatable :: flexibility(:, :)   !< only with rigid parts: rigid_step_t
   end type operator_t
   !> Rigid parts in a step (run_rigid).
@@ -168,6 +170,7 @@ module run_data
     real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (dim, n) only with loads [F]
     real(wp), allocatable :: b_interface(:, :), x_interface(:, :)    !< (dim, m) interface
     real(wp), allocatable :: force(:, :)                   !< (dim, m) H' r
+    real(wp), allocatable :: x_contact(:, :)   !< (dim, m) motion, only where S^-1 is not kept
     ! (dim, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)
     type(newton_t), allocatable :: newton      !< only at finite deformation

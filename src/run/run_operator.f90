@@ -3,19 +3,22 @@
 !> has another beside it, and they change places by their addresses.
 module run_operator
   use assembly_system, only: effective_matrix, diagonal_matrix
-  use base_kinds, only: wp, zero
+  use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
   use base_status, only: status_t, failed
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
+  use contact_local, only: start_local
   use linalg_bodies, only: body_blocks_t, size_blocks, move_blocks
   use linalg_graph, only: block_matrix_t
+  use linalg_near, only: find_near, fill_near, fill_near_diagonal, move_near
   use linalg_registry, only: make_solver, engine_diagonal
   use linalg_solver, only: solver_t, solver_options_t, work_of
   use run_data, only: run_t, operator_t
   use run_motion, only: find_smooth_reactions
   use run_rigid, only: link_interface, keep_flexibility
+  use run_storage, only: choose_storage
   implicit none
   private
   public :: make_operators, change_operators, factor_matrix, size_factor, use_operator, &
@@ -83,7 +86,7 @@ contains
   !> Puts the matrix of a stage into its place, with its factor and the flexibility of the
   !> interface.
   subroutine use_operator(run, stage)
-    type(run_t), intent(inout) :: run
+    type(run_t), intent(inout), target :: run
     integer, intent(in) :: stage
     type(operator_t) :: kept
     if (stage == run%stage_in_use) return
@@ -103,6 +106,12 @@ contains
       call move_alloc(kept%flexibility, run%other%flexibility)
     end if
     run%contact%w_is_current = .false.
+    if (.not. allocated(run%contact%local)) return
+    call move_near(run%contact%local%near, kept%near)
+    call move_near(run%other%near, run%contact%local%near)
+    call move_near(kept%near, run%other%near)
+    run%contact%local%solver => run%solver
+    call start_local(run%contact, run%system%n)
   end subroutine use_operator
 
   subroutine move_matrix(from, to)
@@ -121,7 +130,8 @@ contains
     integer :: stage, in_use
     if (failed(status)) return
     call run%timers%enter(phase_factor)
-    if (again) call size_interface(run)
+    if (again) call size_interface(run, status)
+    if (failed(status)) return
     in_use = run%stage_in_use
     do stage = 1, size(run%scheme%stage)
       if (allocated(run%other)) call use_operator(run, stage)
@@ -132,18 +142,23 @@ contains
   end subroutine factor_matrix
 
   !> Vectors of the interface nodes.
-  subroutine size_interface(run)
+  subroutine size_interface(run, status)
     type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
     integer :: d, m
+    call choose_storage(run, status)
+    if (failed(status)) return
     m = size(run%contact%interface_node)
     d = run%system%dim
     if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
+    if (allocated(run%x_contact)) deallocate (run%x_contact)
     allocate (run%force(d, m))
+    if (allocated(run%contact%local)) allocate (run%x_contact(d, m), source=zero)
     if (allocated(run%rigid)) call link_interface(run)
     associate (kept => size(kept_nodes(run)))
       allocate (run%b_interface(d, kept), run%x_interface(d, kept))
     end associate
-    if (d*m > run%solver_options%block_limit) &
+    if (d*m > run%solver_options%block_limit .and. .not. allocated(run%contact%local)) &
         call add_message(run%notes, '', 'the contact interface has '//to_text(d*m)// &
         ' dofs, more than NLAST; it is kept dense all the same')
   end subroutine size_interface
@@ -153,7 +168,8 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     if (failed(status)) return
-    call size_interface(run)
+    call size_interface(run, status)
+    if (failed(status)) return
     call analyse_matrix(run, status)
   end subroutine size_factor
 
@@ -183,7 +199,9 @@ contains
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
     if (size(run%contact%interface_node) == 0 .or. failed(status)) return
-    if (allocated(run%rigid)) then
+    if (allocated(run%contact%local)) then
+      call fill_local(run, again, status)
+    else if (allocated(run%rigid)) then
       call size_one_body(run%system%dim*size(run%contact%interface_node), &
           run%contact%schur_inverse)
       call keep_flexibility(run)
@@ -197,6 +215,30 @@ contains
       call constrain_interface(run%contact, run%system%fixed_list)
     end if
   end subroutine factor_stage
+
+  !> The near part of the flexibility of the interface, and the solver of the rest.
+  subroutine fill_local(run, again, status)
+    type(run_t), intent(inout), target :: run
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    integer :: k
+    associate (local => run%contact%local, node => run%contact%interface_node)
+      local%solver => run%solver
+      call start_local(run%contact, run%system%n)
+      if (again .or. .not. allocated(local%near%first)) call find_near(run%system%graph, &
+          run%system%dim, node, local%radius, local%near)
+      if (run%solver%takes_diagonal) then
+        do k = 1, size(node)
+          run%x_contact(:, k) = one/run%matrix%diagonal(:, node(k))
+        end do
+        call fill_near_diagonal(run%x_contact, local%near)
+      else
+        call fill_near(run%system%graph, run%matrix, node, local%margin, local%near, status)
+      end if
+      if (allocated(local%pattern)) deallocate (local%pattern, local%pattern_size)
+    end associate
+    if (.not. failed(status)) call constrain_interface(run%contact, run%system%fixed_list)
+  end subroutine fill_local
 
   !> Order and storage of the factor. Where the deck leaves the engine open and the work is that
   !> of a large body in space, dense panels take half the time (doc/performance.md); they do not
@@ -220,7 +262,9 @@ contains
   pure function kept_nodes(run) result(list)
     type(run_t), intent(in) :: run
     integer, allocatable :: list(:)
-    if (allocated(run%rigid)) then
+    if (allocated(run%contact%local)) then
+      list = [integer ::]
+    else if (allocated(run%rigid)) then
       list = run%rigid%solver_node
     else
       list = run%contact%interface_node
