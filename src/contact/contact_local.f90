@@ -129,8 +129,10 @@ contains
         allocate (w%column(n + n/8), w%block(contact%d, contact%d, n + n/8))
         w%block = zero
       end do
-      if (allocated(local%reach)) deallocate (local%reach)
+      if (allocated(local%reach)) deallocate (local%reach, local%weight)
       allocate (local%reach(contact%d, contact%dim, size(contact%interface_node)))
+      allocate (local%weight(contact%d, contact%dim, size(local%pattern, 1)/contact%dim, &
+          contact%n))
     end associate
   end subroutine size_near_w
 
@@ -228,22 +230,23 @@ contains
     n = n + found
   end subroutine append_near
 
-  !> The near part of W for the rows of H as they are.
+  !> The near part of W for the rows of H as they are: the upper triangle, and its mirror.
   subroutine fill_near_w(contact)
     type(contact_t), intent(inout) :: contact
-    integer :: a, k, d
-    d = contact%d
+    integer :: a, k, place
     associate (local => contact%local, w => contact%local%w)
       local%mark = 0
       local%next = w%first(:contact%n)
+      call list_weights(contact)
       do a = 1, contact%n
         call reach_nodes(contact, a)
         do k = local%next(a), w%first(a + 1) - 1
           call fill_block(contact, a, w%column(k), w%block(:, :, k))
           if (w%column(k) == a) cycle
           ! Columns increase: the rows before have taken their places one by one.
-          w%block(:, :, local%next(w%column(k))) = transpose(w%block(:, :, k))
-          local%next(w%column(k)) = local%next(w%column(k)) + 1
+          place = local%next(w%column(k))
+          w%block(:, :, place) = transpose(w%block(:, :, k))
+          local%next(w%column(k)) = place + 1
         end do
       end do
     end associate
@@ -253,46 +256,135 @@ contains
   subroutine reach_nodes(contact, a)
     type(contact_t), intent(inout) :: contact
     integer, intent(in) :: a
-    integer :: i, k, p, q, e, s, dim
-    dim = contact%dim
+    integer :: k, p, first, n
     associate (local => contact%local, near => contact%local%near)
-      do i = 1, contact%d
-        e = contact%d*(a - 1) + i
-        do k = 1, contact%h_size(e)
-          p = (contact%h_dof(k, e) - 1)/dim + 1
-          s = contact%h_dof(k, e) - dim*(p - 1)
-          do q = near%first(p), near%first(p + 1) - 1
-            associate (node => near%node(q))
-              if (local%mark(node) /= a) then
-                local%mark(node) = a
-                local%reach(:, :, node) = zero
-              end if
-              local%reach(i, :, node) = local%reach(i, :, node) &
-                  + contact%h_weight(k, e)*near%block(s, :, q)
-            end associate
+      do k = 1, local%pattern_size(a)/contact%dim
+        p = local%pattern(contact%dim*k, a)/contact%dim
+        first = near%first(p)
+        n = near%first(p + 1) - first
+        if (contact%d == 2 .and. contact%dim == 2) then
+          call reach_from_2(n, a, near%node(first), near%block(1, 1, first), &
+              local%weight(1, 1, k, a), local%mark, local%reach)
+        else
+          call reach_from(contact%d, contact%dim, n, a, near%node(first), &
+              near%block(1, 1, first), local%weight(1, 1, k, a), local%mark, local%reach)
+        end if
+      end do
+    end associate
+  end subroutine reach_nodes
+
+  !> local%weight (d, dim, point, n) of the rows of H as they are; a row that has fewer points,
+  !> as the tangential one before a guided wall, has zeros there.
+  pure subroutine list_weights(contact)
+    type(contact_t), intent(inout) :: contact
+    integer :: a, i, k, s, e
+    associate (local => contact%local)
+      do a = 1, contact%n
+        do k = 1, local%pattern_size(a)/contact%dim
+          do i = 1, contact%d
+            e = contact%d*(a - 1) + i
+            do s = 1, contact%dim
+              local%weight(i, s, k, a) = zero
+              if (contact%h_size(e) >= contact%dim*k) &
+                  local%weight(i, s, k, a) = contact%h_weight(contact%dim*(k - 1) + s, e)
+            end do
           end do
         end do
       end do
     end associate
-  end subroutine reach_nodes
+  end subroutine list_weights
+
+  !> reach = reach + weight block for each of the n near nodes of a point; mark: whose it is.
+  pure subroutine reach_from(d, dim, n, a, node, block, weight, mark, reach)
+    integer, intent(in) :: d, dim, n, a
+    integer, intent(in) :: node(*)
+    real(wp), intent(in) :: block(dim, dim, *), weight(d, *)
+    integer, intent(inout) :: mark(*)
+    real(wp), intent(inout) :: reach(d, dim, *)
+    real(wp) :: own(d)
+    integer :: q, i, s, c
+    do q = 1, n
+      i = node(q)
+      if (mark(i) /= a) then
+        mark(i) = a
+        reach(:, :, i) = zero
+      end if
+      do c = 1, dim
+        own = reach(:, c, i)
+        do s = 1, dim
+          own = own + weight(:, s)*block(s, c, q)
+        end do
+        reach(:, c, i) = own
+      end do
+    end do
+  end subroutine reach_from
+
+  !> The same in the plane with friction.
+  pure subroutine reach_from_2(n, a, node, block, weight, mark, reach)
+    integer, intent(in) :: n, a
+    integer, intent(in) :: node(*)
+    real(wp), intent(in) :: block(2, 2, *), weight(2, *)
+    integer, intent(inout) :: mark(*)
+    real(wp), intent(inout) :: reach(2, 2, *)
+    integer :: q, i, c
+    do q = 1, n
+      i = node(q)
+      if (mark(i) /= a) then
+        mark(i) = a
+        reach(:, :, i) = zero
+      end if
+      do c = 1, 2
+        reach(1, c, i) = reach(1, c, i) + weight(1, 1)*block(1, c, q) &
+            + weight(1, 2)*block(2, c, q)
+        reach(2, c, i) = reach(2, c, i) + weight(2, 1)*block(1, c, q) &
+            + weight(2, 2)*block(2, c, q)
+      end do
+    end do
+  end subroutine reach_from_2
 
   !> W_ab from what contact a reaches.
   pure subroutine fill_block(contact, a, b, block)
     type(contact_t), intent(in) :: contact
     integer, intent(in) :: a, b
-    real(wp), intent(out) :: block(:, :)
-    integer :: j, k, p, s, e
+    real(wp), intent(out), contiguous :: block(:, :)
+    integer :: k, p
     block = zero
-    do j = 1, contact%d
-      e = contact%d*(b - 1) + j
-      do k = 1, contact%h_size(e)
-        p = (contact%h_dof(k, e) - 1)/contact%dim + 1
-        s = contact%h_dof(k, e) - contact%dim*(p - 1)
-        if (contact%local%mark(p) /= a) cycle
-        block(:, j) = block(:, j) + contact%h_weight(k, e)*contact%local%reach(:, s, p)
+    associate (local => contact%local)
+      do k = 1, local%pattern_size(b)/contact%dim
+        p = local%pattern(contact%dim*k, b)/contact%dim
+        if (local%mark(p) /= a) cycle
+        if (contact%d == 2 .and. contact%dim == 2) then
+          call add_point_2(local%weight(1, 1, k, b), local%reach(1, 1, p), block)
+        else
+          call add_point(contact%d, contact%dim, local%weight(1, 1, k, b), &
+              local%reach(1, 1, p), block)
+        end if
+      end do
+    end associate
+  end subroutine fill_block
+
+  !> block = block + reach weight'.
+  pure subroutine add_point(d, dim, weight, reach, block)
+    integer, intent(in) :: d, dim
+    real(wp), intent(in) :: weight(d, *), reach(d, *)
+    real(wp), intent(inout) :: block(d, d)
+    integer :: j, s
+    do j = 1, d
+      do s = 1, dim
+        block(:, j) = block(:, j) + reach(:, s)*weight(j, s)
       end do
     end do
-  end subroutine fill_block
+  end subroutine add_point
+
+  pure subroutine add_point_2(weight, reach, block)
+    real(wp), intent(in) :: weight(2, *), reach(2, *)
+    real(wp), intent(inout) :: block(2, 2)
+    integer :: j
+    do j = 1, 2
+      block(1, j) = block(1, j) + reach(1, 1)*weight(j, 1) + reach(1, 2)*weight(j, 2)
+      block(2, j) = block(2, j) + reach(2, 1)*weight(j, 1) + reach(2, 2)*weight(j, 2)
+    end do
+  end subroutine add_point_2
 
   !> u = W r (d, n): forces of the contacts, the motion of the bodies, its displacements.
   subroutine apply_product(this, r, u)
@@ -337,6 +429,7 @@ contains
     integer :: k, d
     d = contact%dim
     associate (local => contact%local, node => contact%interface_node)
+      local%is_moved = .true.
       if (local%is_exact) then
         local%motion = zero
         call local%near%add_product(one, local%force, local%motion)
@@ -385,16 +478,24 @@ contains
     integer :: passes
     product%contact => contact
     associate (local => contact%local)
+      local%is_moved = .false.
+      passes = 0
       if (local%by_products) then
         call solve_with_products(contact%cone, local%w, product, contact%q, contact%mu, &
             contact%r, contact%work, certificate, status)
+      else
+        call spread_far(contact)
+        call solve_two_level(contact%cone, local%w, product, contact%q, contact%mu, &
+            local%left_out, contact%r, contact%work, passes, certificate, status)
+      end if
+      local%passes = local%passes + passes
+      if (local%is_moved) then
+        if (.not. local%by_products) call keep_far(contact)
         return
       end if
-      call spread_far(contact)
-      call solve_two_level(contact%cone, local%w, product, contact%q, contact%mu, &
-          local%left_out, contact%r, contact%work, passes, certificate, status)
-      local%passes = local%passes + passes
-      if (passes > 0) call keep_far(contact)
+      local%force = zero     ! nothing pushes, and no product has been taken
+      local%motion = zero
+      if (.not. local%is_exact) local%x = zero
     end associate
   end subroutine solve_local
 

@@ -243,9 +243,12 @@ contains
         if (contact%friction_varies) rows%mu(a) = contact%mu(k)
         rows%status(a) = contact%work%status(k)
         if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open
-        call add_row_force(rows, a, contact%rule%factor, rows%slot, force)
+        if (.not. allocated(contact%local)) &
+            call add_row_force(rows, a, contact%rule%factor, rows%slot, force)
       end associate
     end do
+    ! The motion by these very forces is known.
+    if (allocated(contact%local)) force = contact%local%force
     associate (tally => contact%tally)
       if (certificate%wedged > 0 .and. tally%wedged == 0) tally%wedged_node = &
           contact%rows%key(3, contact%row_of(certificate%first_wedged))

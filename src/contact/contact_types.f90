@@ -38,6 +38,7 @@ module contact_types
   type, public :: local_t
     logical :: is_exact = .false.             !< nothing is beyond the near part
     logical :: by_products = .false.          !< W by products alone
+    logical :: is_moved = .false.             !< motion is that of force
     integer :: radius = 0, margin = 0         !< of near part and windows, in elements
     class(solver_t), pointer :: solver => null()   !< of the bodies; the run keeps it
     type(near_t) :: near                      !< of the interface nodes
@@ -47,6 +48,7 @@ module contact_types
     integer, allocatable :: first_of(:), of_node(:)   !< contacts of each interface node
     integer, allocatable :: mark(:), next(:)          !< work space
     real(wp), allocatable :: reach(:, :, :)           !< (d, dim, m) work space
+    real(wp), allocatable :: weight(:, :, :, :)       !< (d, dim, points, n) of H
     real(wp), allocatable :: left_out(:, :)           !< (d, n) (W - near) r [L]
     real(wp), allocatable :: b(:, :), x(:, :)         !< (dim, nodes) force, motion of bodies
     !> (dim, m) of the last product; motion less the near part's, of two solves [F, L]

@@ -145,6 +145,8 @@ contains
       write (unit, '(a)') 'factorisations '//to_text(run%factors)//', solves '// &
           to_text(run%solves)//', contact searches '//to_text(c%searches)// &
           ', contact solves '//to_text(c%solves)//', sweeps '//to_text(c%sweeps)
+      if (allocated(run%contact%local)) write (unit, '(a)') 'contact without S^-1: solves '// &
+          to_text(run%contact%local%solves)//', passes '//to_text(run%contact%local%passes)
       write (unit, '(a)') 'energy: kinetic '//to_text(l%kinetic)//', internal '// &
           to_text(l%internal)//', initial '//to_text(l%initial)//', external '// &
           to_text(l%external)//', motion '//to_text(l%motion)
