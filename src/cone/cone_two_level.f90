@@ -22,14 +22,21 @@ module cone_two_level
 
   !> Products after which the others are taken up, sweeps after which other methods are.
   integer, parameter :: most_passes = 40, patience = 200
-  !> Share of the reactions by which the last sweep of a first pass may change them.
+  !> Share of the reactions that sweeps of a first pass may leave.
   real(wp), parameter :: first_share = 1.0e-6_wp
+  !> The same of later passes, of the tolerance: forces are then as near to those of a direct
+  !> solve as they can be.
+  real(wp), parameter :: last_share = 0.01_wp
+  !> Passes end at that share of the tolerance, but not below what round-off lets them reach.
+  real(wp), parameter :: strict_share = 0.1_wp, least_tolerance = 1.0e-13_wp
+  !> Sweeps that converge more slowly than by this rate are taken to do so by it.
+  real(wp), parameter :: slowest = 0.99_wp
 
 contains
 
   !> Solves u = W r + q with r in the cones: near [L/F] the near part of W, product all of it,
-  !> q (d, nc) [L], mu (nc). far (d, nc) = (W - near) r [L], on entry a guess. r (d, nc) on entry
-  !> is the start, on exit the reactions [F]; work%u the displacements [L]. passes: products.
+  !> q (d, nc) [L], mu (nc). far (d, nc) = (W - near) r [L], on entry a guess. r (d, nc) on
+  !> entry is the start, on exit the reactions [F]; work%u the displacements [L]. passes: products.
   !> Fails where neither passes nor products alone meet the tolerance.
   subroutine solve_two_level(options, near, product, q, mu, far, r, work, passes, certificate, &
       status)
@@ -42,7 +49,7 @@ contains
     integer, intent(out) :: passes
     type(certificate_t), intent(out) :: certificate
     type(status_t), intent(inout) :: status
-    real(wp) :: m, share
+    real(wp) :: m, share, strict
     logical :: is_done
     integer :: sweeps
     call begin_solve(options, near, q, mu, r, work, m, is_done, status)
@@ -50,6 +57,7 @@ contains
     if (is_done) return
     call find_rho(near, options%rho_factor, work%rho)
     share = first_share
+    strict = max(strict_share*options%tolerance, min(options%tolerance, least_tolerance))
     sweeps = 0
     do passes = 1, most_passes
       work%trial = q + far
@@ -57,16 +65,18 @@ contains
       sweeps = sweeps + certificate%sweeps
       call product%apply(r, work%trial_u)
       work%u = q + work%trial_u
-      call evaluate_certificate(m, mu, q, r, work%u, options%tolerance, certificate)
+      call evaluate_certificate(m, mu, q, r, work%u, strict, certificate)
       far = zero
       call near%add_product(r, far)
       far = work%trial_u - far
       if (certificate%met) exit
-      share = 0.1_wp*options%tolerance
+      share = last_share*options%tolerance
     end do
+    passes = min(passes, most_passes)
+    call evaluate_certificate(m, mu, q, r, work%u, options%tolerance, certificate)
     certificate%sweeps = sweeps
-    if (.not. certificate%met) call solve_with_products(options, near, product, q, mu, r, work, &
-        certificate, status)
+    if (.not. certificate%met) call solve_with_products(options, near, product, q, mu, r, &
+        work, certificate, status)
     call add_error2018(one, mu, r, work%u, certificate)
     call find_statuses(m, mu, r, work%u, work%status)
     call count_wedging(near, mu, r, certificate)
@@ -119,12 +129,12 @@ contains
     end if
     is_done = .not. (is_ordinary(m, mu, q, r, q) .and. maxval(mu) <= large_friction)
     if (is_done) call fail(status, status_numerical, 'a contact solve without all of W has '// &
-        'numbers beyond 2^200 or friction beyond '//'1e7', hint='choose WSTORE DENSE on '// &
+        'numbers beyond 2^200 or friction beyond 1e7', hint='choose WSTORE DENSE on '// &
         '*BIPACT_CONTACT')
   end subroutine begin_solve
 
-  !> Sweeps on the near part for work%trial = q + far, until one changes r by no more than that
-  !> share of it; where they are slow the solver on blocks.
+  !> Sweeps on the near part for work%trial = q + far, until those to come would change r by no
+  !> more than that share of it, at the rate of the last two; where they are slow the solver on blocks.
   subroutine sweep_near(options, near, mu, m, share, r, work, certificate)
     type(cone_options_t), intent(in) :: options
     type(delassus_blocks_t), intent(in) :: near
@@ -135,14 +145,17 @@ contains
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: own
     type(status_t) :: answer
-    real(wp) :: change
+    real(wp) :: change, before, rate
     integer :: sweep
     change = huge(change)
     do sweep = 1, min(patience, options%max_sweeps)
+      before = change
       call sweep_contacts(options, near, mu, work%rho, work%trial, r, work%u, work%status, &
           change, certificate%local_iterations)
       certificate%sweeps = sweep
-      if (change <= share*sum_of(size(r), r)) return
+      if (sweep == 1 .and. change > zero) cycle
+      rate = min(change/max(before, tiny(before)), slowest)
+      if (change*rate <= (one - rate)*share*sum_of(size(r), r)) return
     end do
     work%trial_u = r
     call solve_blocks(options, near, work%trial, mu, m, work%trial_u, work%u, own, answer)

@@ -219,13 +219,13 @@ contains
     integer :: b, n
     is_complete = .true.
     contact%x_end = x_free
-    if (acting) then
-      if (allocated(contact%local)) then
-        call move_by(contact, force)
-        contact%x_end = contact%x_end + contact%local%motion
-      else
-        call add_product(size(force), contact%schur_inverse, force, contact%x_end)
-      end if
+    if (acting .and. allocated(contact%local)) then
+      call move_by(contact, force)
+      contact%x_end = contact%x_end + contact%local%motion
+    else if (acting .and. size(contact%schur_inverse%block) == 1) then
+      call add_product(size(force), contact%schur_inverse%block(1)%a, force, contact%x_end)
+    else if (acting) then
+      call add_products(size(force), contact%schur_inverse, force, contact%x_end)
     end if
     associate (spare => contact%spare)
       do b = 1, spare%n
@@ -251,19 +251,25 @@ contains
   !> x = x + A f.
   pure subroutine add_product(n, a, f, x)
     integer, intent(in) :: n
+    real(wp), intent(in) :: a(n, n), f(n)
+    real(wp), intent(inout) :: x(n)
+    integer :: j
+    do j = 1, n
+      if (abs(f(j)) > zero) x = x + f(j)*a(:, j)
+    end do
+  end subroutine add_product
+
+  !> The same, body by body.
+  pure subroutine add_products(n, a, f, x)
+    integer, intent(in) :: n
     type(body_blocks_t), intent(in) :: a
     real(wp), intent(in) :: f(n)
     real(wp), intent(inout) :: x(n)
     integer :: j
     do j = 1, n
-      if (.not. abs(f(j)) > zero) cycle
-      if (size(a%block) == 1) then
-        x = x + f(j)*a%block(1)%a(:, j)
-      else
-        call a%add_column(j, f(j), x)
-      end if
+      if (abs(f(j)) > zero) call a%add_column(j, f(j), x)
     end do
-  end subroutine add_product
+  end subroutine add_products
 
   !> Displacement of the interface nodes at the end of a step of motion x (dim, m).
   pure subroutine place_end(contact, u, x)

@@ -7,7 +7,8 @@ module contact_condense
   use base_checks, only: checks_on, assert
   use base_kinds, only: wp, zero, one
   use contact_kinematics, only: row_of_h
-  use contact_local, only: clear_held, mark_rigid_near, size_near_w, fill_near_w
+  use contact_local, only: clear_held
+  use contact_near_w, only: mark_rigid_near, size_near_w, fill_near_w
   use contact_rows, only: rows_t
   use contact_types, only: contact_t
   use linalg_bodies, only: body_blocks_t
@@ -167,7 +168,7 @@ contains
     type(body_blocks_t), intent(in) :: schur_inverse
     type(rows_t), intent(inout) :: rows
     real(wp) :: scale, normal, weight(rows%dim*rows%most_points)
-    integer :: a, b, i, j, k, n, start, behind, dof(rows%dim*rows%most_points)
+    integer :: a, i, k, n, dof(rows%dim*rows%most_points)
     scale = zero
     do k = 1, size(schur_inverse%block)
       associate (a => schur_inverse%block(k)%a)
@@ -178,22 +179,46 @@ contains
     end do
     do a = 1, rows%n
       call row_of_h(rows, a, 1, dof, weight, n)
-      normal = zero
-      do k = 1, n
-        b = 1
-        if (size(schur_inverse%block) > 1) b = schur_inverse%body(dof(k))
-        start = schur_inverse%first(b)
-        behind = schur_inverse%first(b + 1)
-        associate (f => schur_inverse%block(b)%a)
-          do j = 1, n
-            if (dof(j) < start .or. dof(j) >= behind) cycle
-            normal = normal + weight(j)*weight(k)*f(dof(j) - start + 1, dof(k) - start + 1)
-          end do
-        end associate
-      end do
+      if (size(schur_inverse%block) == 1) then
+        normal = form(schur_inverse%block(1)%a, 0, n, dof, weight)
+      else
+        normal = form_of_bodies(schur_inverse, n, dof, weight)
+      end if
       rows%is_rigid(a) = normal <= epsilon(one)*scale
     end do
   end subroutine mark_rigid
+
+  !> weight' f weight of n dofs, those of f from start + 1 on; others have no part in it.
+  pure real(wp) function form(f, start, n, dof, weight)
+    real(wp), intent(in) :: f(:, :), weight(:)
+    integer, intent(in) :: start, n, dof(:)
+    integer :: j, k
+    form = zero
+    do k = 1, n
+      do j = 1, n
+        form = form + weight(j)*weight(k)*f(dof(j) - start, dof(k) - start)
+      end do
+    end do
+  end function form
+
+  !> The same for dofs of several bodies: what is of one body at a time.
+  pure real(wp) function form_of_bodies(f, n, dof, weight) result(sum_of_forms)
+    type(body_blocks_t), intent(in) :: f
+    integer, intent(in) :: n, dof(:)
+    real(wp), intent(in) :: weight(:)
+    real(wp) :: own_weight(n)
+    integer :: k, own, body, own_dof(n)
+    sum_of_forms = zero
+    do k = 1, n
+      body = f%body(dof(k))
+      if (any(f%body(dof(:k - 1)) == body)) cycle
+      own = count(f%body(dof(:n)) == body)
+      own_dof(:own) = pack(dof(:n), f%body(dof(:n)) == body)
+      own_weight(:own) = pack(weight(:n), f%body(dof(:n)) == body)
+      sum_of_forms = sum_of_forms + form(f%block(body)%a, f%first(body) - 1, own, own_dof, &
+          own_weight)
+    end do
+  end function form_of_bodies
 
   !> Storage of W, q, mu, r for n rows.
   subroutine size_problem(contact, n)
@@ -246,32 +271,54 @@ contains
   !> W = H S^-1 H', a column of S^-1 H' at a time; both triangles.
   pure subroutine fill_w(contact)
     type(contact_t), intent(inout) :: contact
-    real(wp) :: entry
-    integer :: i, j, k, d
-    d = contact%d
-    associate (dof => contact%h_dof, weight => contact%h_weight, column => contact%column, &
-        w => contact%w%matrix)
-      do j = 1, d*contact%n
+    integer :: j, k, n
+    n = contact%d*contact%n
+    associate (f => contact%schur_inverse, column => contact%column)
+      if (size(f%block) == 1) then
+        call fill_one_body(n, f%block(1)%a, contact%h_dof, contact%h_weight, contact%h_size, &
+            column, contact%w%matrix)
+        return
+      end if
+      do j = 1, n
         column = zero
-        if (size(contact%schur_inverse%block) == 1) then
-          do k = 1, contact%h_size(j)
-            column = column + weight(k, j)*contact%schur_inverse%block(1)%a(:, dof(k, j))
-          end do
-        else
-          do k = 1, contact%h_size(j)
-            call contact%schur_inverse%add_column(dof(k, j), weight(k, j), column)
-          end do
-        end if
-        do i = 1, j
-          entry = zero
-          do k = 1, contact%h_size(i)
-            entry = entry + weight(k, i)*column(dof(k, i))
-          end do
-          w(i, j) = entry
-          w(j, i) = entry
+        do k = 1, contact%h_size(j)
+          call f%add_column(contact%h_dof(k, j), contact%h_weight(k, j), column)
         end do
+        call fill_column(j, contact%h_dof, contact%h_weight, contact%h_size, column, &
+            contact%w%matrix)
       end do
     end associate
   end subroutine fill_w
+
+  pure subroutine fill_one_body(n, f, dof, weight, length, column, w)
+    integer, intent(in) :: n, dof(:, :), length(:)
+    real(wp), intent(in) :: f(:, :), weight(:, :)
+    real(wp), intent(inout) :: column(:), w(:, :)
+    integer :: j, k
+    do j = 1, n
+      column = zero
+      do k = 1, length(j)
+        column = column + weight(k, j)*f(:, dof(k, j))
+      end do
+      call fill_column(j, dof, weight, length, column, w)
+    end do
+  end subroutine fill_one_body
+
+  !> Column j of W down to its diagonal, and the row that it is too.
+  pure subroutine fill_column(j, dof, weight, length, column, w)
+    integer, intent(in) :: j, dof(:, :), length(:)
+    real(wp), intent(in) :: weight(:, :), column(:)
+    real(wp), intent(inout) :: w(:, :)
+    real(wp) :: entry
+    integer :: i, k
+    do i = 1, j
+      entry = zero
+      do k = 1, length(i)
+        entry = entry + weight(k, i)*column(dof(k, i))
+      end do
+      w(i, j) = entry
+      w(j, i) = entry
+    end do
+  end subroutine fill_column
 
 end module contact_condense

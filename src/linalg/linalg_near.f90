@@ -238,7 +238,7 @@ contains
     end do
   end subroutine cut_out
 
-  !> Rows of the core nodes from the flexibility f of a window, in which seen_as has their place.
+  !> Rows of the core nodes from the flexibility f of a window; seen_as: their places in it.
   pure subroutine take_rows(core, seen_as, f, near)
     integer, intent(in) :: core(:), seen_as(:)
     real(wp), intent(in) :: f(:, :)

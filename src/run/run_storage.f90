@@ -80,8 +80,8 @@ contains
     if (run%plan%dump) obstacle = 'DFIRST, which writes all of W'
     if (run%step%mode == step_event) obstacle = 'steps cut at a touch, which ask for all of W'
     if (allocated(run%newton)) then
-      if (.not. run%newton%is_explicit) obstacle = 'steps at finite deformation, whose W is '// &
-          'another one after each factor'
+      if (.not. run%newton%is_explicit) obstacle = 'steps at finite deformation, whose W '// &
+          'is another one after each factor'
     end if
   end function obstacle_of
 
@@ -131,8 +131,9 @@ contains
     near = 8.0_wp*entries*(sweeps + building + 4.0_wp)
     if (.not. run%solver%takes_diagonal) then
       least = 4.0_wp*run%system%dim**2*real(size(run%system%graph%column), wp)
-      if (dense < near + 2.0_wp*passes*least) then
-        reason = reason//'; solves alone would read '//text_of(near + 2.0_wp*passes*least)
+      least = near + 2.0_wp*passes*least
+      if (dense < least) then
+        reason = reason//'; solves would read '//text_of(least)//' or more'
         return
       end if
       call run%solver%analyse(run%system%graph, run%system%dim, [integer ::], status)
