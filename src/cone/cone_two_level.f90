@@ -36,7 +36,8 @@ contains
 
   !> Solves u = W r + q with r in the cones: near [L/F] the near part of W, product all of it,
   !> q (d, nc) [L], mu (nc). far (d, nc) = (W - near) r [L], on entry a guess. r (d, nc) on
-  !> entry is the start, on exit the reactions [F]; work%u the displacements [L]. passes: products.
+  !> entry is the start, on exit the reactions [F]; work%u the displacements [L]. passes: of
+  !> products.
   !> Fails where neither passes nor products alone meet the tolerance.
   subroutine solve_two_level(options, near, product, q, mu, far, r, work, passes, certificate, &
       status)
@@ -134,7 +135,8 @@ contains
   end subroutine begin_solve
 
   !> Sweeps on the near part for work%trial = q + far, until those to come would change r by no
-  !> more than that share of it, at the rate of the last two; where they are slow the solver on blocks.
+  !> more than that share of it, at the rate of the last two; where they are slow the solver
+  !> on blocks.
   subroutine sweep_near(options, near, mu, m, share, r, work, certificate)
     type(cone_options_t), intent(in) :: options
     type(delassus_blocks_t), intent(in) :: near
