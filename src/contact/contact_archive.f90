@@ -5,7 +5,7 @@ module contact_archive
   use base_archive, only: archive_t, archive_restore
   use base_kinds, only: wp, zero
   use cone_types, only: certificate_t
-  use contact_condense, only: size_schur_inverse
+  use contact_condense, only: size_interface_vectors
   use contact_pairing, only: pairing_t, node_forces_t, pair_sums_t
   use contact_rows, only: rows_t, start_rows, size_points, set_tangents, row_kinds
   use contact_types, only: contact_t, tally_t
@@ -44,6 +44,7 @@ contains
     call exchange_rows(archive, contact%rows)
     if (contact%keeps_before) call exchange_rows(archive, contact%before)
     call exchange_tally(archive, contact%tally)
+    call exchange_far(archive, contact)
     begins = .false.
     do p = 1, size(contact%pairing)
       associate (pairing => contact%pairing(p)%item)
@@ -62,6 +63,25 @@ contains
     contact%rows_are_plain = .false.
   end subroutine exchange_contact
 
+  !> What the near part of W has left out in the last two solves, from which the next begin.
+  subroutine exchange_far(archive, contact)
+    type(archive_t), intent(inout) :: archive
+    type(contact_t), intent(inout) :: contact
+    logical :: is_kept
+    call archive%agree('far.', allocated(contact%local) .or. archive%mode == archive_restore, &
+        is_kept)
+    if (.not. is_kept) return
+    if (archive%mode == archive_restore) then
+      if (.not. allocated(contact%local)) allocate (contact%local)
+      associate (local => contact%local, m => size(contact%interface_node))
+        if (allocated(local%far)) deallocate (local%far, local%far_older)
+        allocate (local%far(contact%dim, m), local%far_older(contact%dim, m))
+      end associate
+    end if
+    call archive%exchange('far.last', contact%local%far)
+    call archive%exchange('far.older', contact%local%far_older)
+  end subroutine exchange_far
+
   !> Storage for an interface of n nodes, those that are carried, and the lists that go with
   !> it.
   subroutine size_interface(contact, n, carried)
@@ -74,7 +94,7 @@ contains
     if (size(contact%interface_node) == n) return
     deallocate (contact%interface_node)
     allocate (contact%interface_node(n))
-    call size_schur_inverse(contact)
+    call size_interface_vectors(contact)
   end subroutine size_interface
 
   !> A list of rows with its reactions.

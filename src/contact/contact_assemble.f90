@@ -6,11 +6,13 @@ module contact_assemble
   use cone_types, only: most_components
   use contact_features, only: smooth_angle
   use contact_kinematics, only: relative_displacement
+  use contact_local, only: move_by
   use contact_pairing, only: late_t
   use contact_ramp, only: ramp_floor
   use contact_rows, only: rows_t, start_rows, add_row, copy_row, swap_rows, same_geometry, &
       carry_reactions, take_reactions, comes_before, find_slots
   use contact_types, only: contact_t
+  use linalg_bodies, only: body_blocks_t
   use model_data, only: model_t
   implicit none
   private
@@ -217,7 +219,14 @@ contains
     integer :: b, n
     is_complete = .true.
     contact%x_end = x_free
-    if (acting) call add_product(size(force), contact%schur_inverse, force, contact%x_end)
+    if (acting .and. allocated(contact%local)) then
+      call move_by(contact, force)
+      contact%x_end = contact%x_end + contact%local%motion
+    else if (acting .and. size(contact%schur_inverse%block) == 1) then
+      call add_product(size(force), contact%schur_inverse%block(1)%a, force, contact%x_end)
+    else if (acting) then
+      call add_products(size(force), contact%schur_inverse, force, contact%x_end)
+    end if
     associate (spare => contact%spare)
       do b = 1, spare%n
         d = relative_displacement(spare, b, spare%slot, contact%x_end)
@@ -249,6 +258,18 @@ contains
       if (abs(f(j)) > zero) x = x + f(j)*a(:, j)
     end do
   end subroutine add_product
+
+  !> The same, body by body.
+  pure subroutine add_products(n, a, f, x)
+    integer, intent(in) :: n
+    type(body_blocks_t), intent(in) :: a
+    real(wp), intent(in) :: f(n)
+    real(wp), intent(inout) :: x(n)
+    integer :: j
+    do j = 1, n
+      if (abs(f(j)) > zero) call a%add_column(j, f(j), x)
+    end do
+  end subroutine add_products
 
   !> Displacement of the interface nodes at the end of a step of motion x (dim, m).
   pure subroutine place_end(contact, u, x)

@@ -14,6 +14,7 @@ module contact_slip
   use cone_types, only: certificate_t, contact_stick
   use contact_friction, only: friction_t, friction_varies, friction_at
   use contact_kinematics, only: tangential_length
+  use contact_local, only: solve_local
   use contact_rule, only: level_velocity
   use contact_types, only: contact_t
   implicit none
@@ -38,15 +39,13 @@ contains
     integer :: pass, sweeps
     logical :: is_met
     if (.not. contact%friction_varies .or. contact%rule%is_frictionless) then
-      call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
-          certificate, status)
+      call solve_condensed(contact, certificate, status)
       return
     end if
     call set_static(contact)
     sweeps = 0
     do pass = 1, most_passes
-      call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
-          certificate, status)
+      call solve_condensed(contact, certificate, status)
       sweeps = sweeps + certificate%sweeps
       call find_friction(contact, is_met)
       if (is_met .or. failed(status)) exit
@@ -60,6 +59,19 @@ contains
     call fail(status, status_numerical, 'friction at the speed of slip was not found in '// &
         to_text(most_passes)//' contact solves', hint='take a smaller step or a smaller DC')
   end subroutine solve_friction
+
+  !> Reactions for the coefficients as they are, by what is known of W.
+  subroutine solve_condensed(contact, certificate, status)
+    type(contact_t), intent(inout) :: contact
+    type(certificate_t), intent(out) :: certificate
+    type(status_t), intent(inout) :: status
+    if (allocated(contact%local)) then
+      call solve_local(contact, certificate, status)
+    else
+      call solve_cone(contact%cone, contact%w, contact%q, contact%mu, contact%r, contact%work, &
+          certificate, status)
+    end if
+  end subroutine solve_condensed
 
   pure subroutine set_static(contact)
     type(contact_t), intent(inout) :: contact

@@ -9,7 +9,8 @@ module contact_stage
   use cone_certificate, only: certify
   use cone_types, only: certificate_t, contact_open, most_components, size_cone_work
   use contact_assemble, only: find_rows, add_missing_rows, count_rows
-  use contact_condense, only: build_w
+  use contact_condense, only: build_w, mean_flexibility
+  use contact_local, only: shift_far, near_product_of
   use contact_monitor, only: check_listed
   use contact_purse, only: start_purses, open_purses, set_offsets, purse_is_short
   use contact_kinematics, only: relative_displacement, add_row_force
@@ -107,6 +108,7 @@ contains
     acting = .true.
     contact%largest_velocity = largest_component(size(v), v)
     call start_reactions(contact, .true.)
+    call shift_far(contact)
     call find_reactions(model, contact, force, certificate, status)
     call watch_alternation(contact)
     contact%tally%solves = contact%tally%solves + 1
@@ -138,6 +140,7 @@ contains
       if (.not. acting .and. all(contact%q(1, :) >= zero)) return
       acting = .true.
       call start_reactions(contact, round == 1 .and. attempt == 1)
+      if (round == 1 .and. attempt == 1) call shift_far(contact)
       call find_reactions(model, contact, force, certificate, status)
       if (round == 1 .and. attempt == 1) call watch_alternation(contact)
       contact%tally%solves = contact%tally%solves + 1
@@ -240,9 +243,12 @@ contains
         if (contact%friction_varies) rows%mu(a) = contact%mu(k)
         rows%status(a) = contact%work%status(k)
         if (.not. contact%r(1, k) > zero) rows%status(a) = contact_open
-        call add_row_force(rows, a, contact%rule%factor, rows%slot, force)
+        if (.not. allocated(contact%local)) &
+            call add_row_force(rows, a, contact%rule%factor, rows%slot, force)
       end associate
     end do
+    ! The motion by these very forces is known.
+    if (allocated(contact%local)) force = contact%local%force
     associate (tally => contact%tally)
       if (certificate%wedged > 0 .and. tally%wedged == 0) tally%wedged_node = &
           contact%rows%key(3, contact%row_of(certificate%first_wedged))
@@ -305,12 +311,17 @@ contains
         if (-rows%u(1, a) > half*contact%penetration_tolerance*rows%length(a)) done = .false.
       end associate
     end do
-    call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
+    call certify(mean_flexibility(contact), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
     done = done .and. (certificate%met .or. .not. acting)
     if (done) return
-    contact%q = contact%work%u - reshape(matmul(contact%w%matrix, &
-        reshape(contact%r, [contact%d*contact%n])), [contact%d, contact%n])
+    if (allocated(contact%local)) then
+      call near_product_of(contact, contact%r, contact%work%trial_u)
+      contact%q = contact%work%u - contact%work%trial_u
+    else
+      contact%q = contact%work%u - reshape(matmul(contact%w%matrix, &
+          reshape(contact%r, [contact%d*contact%n])), [contact%d, contact%n])
+    end if
     more = force
     force = zero
     call find_reactions(model, contact, force, certificate, status)
@@ -360,7 +371,7 @@ contains
     real(wp) :: pressed
     associate (rows => contact%rows, rule => contact%rule)
       pressed = sum(rows%r_previous(:, :rows%n)**2)
-      velocity_terms = (contact%w%mean_diagonal()*rule%factor)**2*pressed + &
+      velocity_terms = (mean_flexibility(contact)*rule%factor)**2*pressed + &
           rows%n*(max(abs(rule%before), rule%now)*contact%largest_velocity)**2
     end associate
   end function velocity_terms
@@ -413,7 +424,7 @@ contains
     do k = 1, contact%n
       contact%work%u(:, k) = contact%rows%u(1:contact%d, contact%row_of(k))
     end do
-    call certify(contact%w%mean_diagonal(), contact%mu, contact%q, contact%r, contact%work%u, &
+    call certify(mean_flexibility(contact), contact%mu, contact%q, contact%r, contact%work%u, &
         contact%cone%tolerance, certificate, gap_noise(contact, du))
     call keep_certificate(certificate, contact%tally)
   end subroutine certify_end

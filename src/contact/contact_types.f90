@@ -3,11 +3,15 @@
 module contact_types
   use base_kinds, only: wp, zero
   use cone_anderson, only: anderson_t
+  use cone_blocks, only: delassus_blocks_t
   use cone_dense, only: delassus_dense_t
   use cone_types, only: cone_options_t, cone_work_t, certificate_t
   use contact_pairing, only: pairing_slot_t, late_t
   use contact_rows, only: rows_t, row_kinds
   use contact_rule, only: contact_rule_t
+  use linalg_bodies, only: body_blocks_t
+  use linalg_near, only: near_t
+  use linalg_solver, only: solver_t
   implicit none
   private
 
@@ -29,6 +33,28 @@ module contact_types
     integer :: misses = 0                         !< solves that missed the certificate
     integer :: wedged = 0, wedged_node = 0        !< contacts that may have several answers
   end type tally_t
+
+  !> Contact without S^-1 (contact_local): the near part of the flexibility and of W.
+  type, public :: local_t
+    logical :: is_exact = .false.             !< nothing is beyond the near part
+    logical :: by_products = .false.          !< W by products alone
+    logical :: is_moved = .false.             !< motion is that of force
+    integer :: radius = 0, margin = 0         !< of near part and windows, in elements
+    class(solver_t), pointer :: solver => null()   !< of the bodies; the run keeps it
+    type(near_t) :: near                      !< of the interface nodes
+    type(delassus_blocks_t) :: w              !< near part of W
+    !> (*, n) dofs of each contact's rows of H and their number, for which w has its pattern
+    integer, allocatable :: pattern(:, :), pattern_size(:)
+    integer, allocatable :: first_of(:), of_node(:)   !< contacts of each interface node
+    integer, allocatable :: mark(:), next(:)          !< work space
+    real(wp), allocatable :: reach(:, :, :)           !< (d, dim, m) work space
+    real(wp), allocatable :: weight(:, :, :, :)       !< (d, dim, points, n) of H
+    real(wp), allocatable :: left_out(:, :)           !< (d, n) (W - near) r [L]
+    real(wp), allocatable :: b(:, :), x(:, :)         !< (dim, nodes) force, motion of bodies
+    !> (dim, m) of the last product; motion less the near part's, of two solves [F, L]
+    real(wp), allocatable :: force(:, :), motion(:, :), far(:, :), far_older(:, :)
+    integer :: solves = 0, passes = 0         !< so far
+  end type local_t
 
   type, public :: contact_t
     type(pairing_slot_t), allocatable :: pairing(:)
@@ -65,8 +91,10 @@ module contact_types
     real(wp), allocatable :: free(:, :), u_end(:, :)
     real(wp), allocatable :: x_end(:, :)          !< (dim, m) motion of the interface [L]
     real(wp), allocatable :: placed(:, :)         !< (dim, nodes): contact_velocity
-    !> (dim m, dim m) S^-1 of the interface, constrained dofs cleared [L/F]
-    real(wp), allocatable :: schur_inverse(:, :)
+    integer, allocatable :: body(:)               !< (nodes) bodies: components of the graph
+    !> (dim m, dim m) S^-1 of the interface by bodies, constrained dofs cleared [L/F]
+    type(body_blocks_t) :: schur_inverse
+    type(local_t), allocatable :: local           !< only where there is no S^-1
     ! The condensed problem: rows that are not rigid.
     integer :: n = 0
     integer, allocatable :: row_of(:)             !< (n)

@@ -65,7 +65,8 @@ contains
     call add_field(table, 'WARM', 'I10 =1 >=0 <=1', &
         '1 = start from the reactions of the last step')
     call add_card(table)
-    call add_field(table, 'WSTORE', 'W10 =AUTO |AUTO|DENSE|', 'storage of W')
+    call add_field(table, 'WSTORE', 'W10 =AUTO |AUTO|DENSE|BLOCK|NONE|', &
+        'W whole; its near part and solves; solves alone; AUTO: by the bytes of a step')
     call add_field(table, 'FRAME', 'W10 |START|MID|REF|', &
         'normals: start of the step (blank: MID at curved walls), its middle, reference')
     call add_field(table, 'PENTOL', 'R10 =1.0E-9 >0 <=0.01', &

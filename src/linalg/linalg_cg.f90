@@ -12,7 +12,6 @@ module linalg_cg
   use base_kinds, only: wp, i8, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
   use base_strings, only: to_text
-  use linalg_dense, only: dense_factor, dense_solve
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_incomplete, only: incomplete_t, make_incomplete, factor_incomplete, &
       apply_incomplete, multiply
@@ -35,7 +34,7 @@ module linalg_cg
     procedure :: factor => cg_factor
     procedure :: forward => cg_forward
     procedure :: solve_schur => cg_solve_schur
-    procedure :: flexibility => cg_flexibility
+    procedure :: body_flexibility => cg_flexibility
     procedure :: backward => cg_backward
   end type cg_t
 
@@ -72,7 +71,9 @@ contains
         this%f, this%reaction)
     allocate (this%x(d, graph%n), this%b(d, graph%n), this%r(d, graph%n), this%z(d, graph%n), &
         this%p(d, graph%n), this%q(d, graph%n), this%reaction(d, size(last)))
-    allocate (this%f(m, m), this%schur%l(m, m), source=zero)
+    allocate (this%f(m, m), source=zero)
+    call this%schur%plan_whole(d, size(last))
+    call this%schur%make()
   end subroutine cg_analyse
 
   !> Incomplete factor and the flexibility of the block, a solve for each of its dofs.
@@ -102,8 +103,8 @@ contains
       end do
     end do
     this%f = half*(this%f + transpose(this%f))
-    this%schur%l = this%f
-    call dense_factor(this%schur, status)
+    this%schur%block(1)%l = this%f
+    call this%schur%factor(status)
   end subroutine cg_factor
 
   !> x = A^-1 b; for the block S times its part.
@@ -119,21 +120,25 @@ contains
     do k = 1, this%n_interface
       b_interface(:, k) = this%x(:, this%last(k))
     end do
-    if (this%n_interface > 0) call dense_solve(this%schur, size(this%f, 1), b_interface)
+    if (this%n_interface > 0) call this%schur%solve(b_interface)
   end subroutine cg_forward
 
   subroutine cg_solve_schur(this, x_interface)
     class(cg_t), intent(in) :: this
-    real(wp), intent(inout) :: x_interface(:, :)
+    real(wp), intent(inout), contiguous :: x_interface(:, :)
     if (checks_on) call assert_shape(shape(x_interface), [this%d, this%n_interface], &
         'cg_solve_schur', 'x_interface')
     if (this%n_interface > 0) x_interface = reshape(matmul(this%f, reshape(x_interface, &
         [size(this%f, 1)])), shape(x_interface))
   end subroutine cg_solve_schur
 
-  subroutine cg_flexibility(this, f)
+  !> Of the one block that there is, number k.
+  subroutine cg_flexibility(this, k, f)
     class(cg_t), intent(in) :: this
-    real(wp), intent(out) :: f(:, :)
+    integer, intent(in) :: k
+    real(wp), intent(out), contiguous :: f(:, :)
+    if (checks_on) call assert_shape(shape(f), shape(this%f), 'cg_flexibility', 'f')
+    if (k /= 1) return
     f = this%f
   end subroutine cg_flexibility
 
@@ -148,7 +153,7 @@ contains
     x = this%x
     if (this%n_interface == 0) return
     this%reaction = x_interface - this%x(:, this%last)
-    call dense_solve(this%schur, size(this%f, 1), this%reaction)
+    call this%schur%solve(this%reaction)
     do k = 1, this%n_interface
       this%b(:, this%last(k)) = this%b(:, this%last(k)) + this%reaction(:, k)
     end do

@@ -114,16 +114,14 @@ contains
   !> inverse = matrix^-1, both triangles.
   subroutine dense_inverse(block, inverse)
     type(dense_spd_t), intent(in) :: block
-    real(wp), intent(out) :: inverse(:, :)
-    real(wp), allocatable :: work(:, :)
+    real(wp), intent(out), contiguous :: inverse(:, :)
     integer :: j, info
     if (checks_on) call assert_shape(shape(inverse), [block%n, block%n], 'dense_inverse', &
         'inverse')
-    allocate (work(block%n, block%n))
-    work = block%l
-    call dpotri('L', block%n, work, block%n, info)
+    inverse = block%l
+    call dpotri('L', block%n, inverse, block%n, info)
     do j = 1, block%n
-      inverse(j:, j) = work(j:, j)/block%scale
+      inverse(j:, j) = inverse(j:, j)/block%scale
       inverse(j, j:) = inverse(j:, j)
     end do
   end subroutine dense_inverse

@@ -21,7 +21,7 @@ module linalg_diagonal
     procedure :: factor => diagonal_factor
     procedure :: forward => diagonal_forward
     procedure :: solve_schur => diagonal_solve_schur
-    procedure :: flexibility => diagonal_flexibility
+    procedure :: body_flexibility => diagonal_flexibility
     procedure :: backward => diagonal_backward
   end type diagonal_t
 
@@ -39,6 +39,7 @@ contains
     this%d = d
     this%n_interface = size(last)
     this%last = last
+    call this%schur%plan(graph, d, last)
     this%info%order = 'none'
     if (.not. allocated(this%work)) &
         allocate (this%inverse(d, graph%n), this%work(d, graph%n))
@@ -87,7 +88,7 @@ contains
 
   subroutine diagonal_solve_schur(this, x_interface)
     class(diagonal_t), intent(in) :: this
-    real(wp), intent(inout) :: x_interface(:, :)
+    real(wp), intent(inout), contiguous :: x_interface(:, :)
     integer :: k
     if (checks_on) call assert_shape(shape(x_interface), [this%d, this%n_interface], &
         'diagonal_solve_schur', 'x_interface')
@@ -96,17 +97,17 @@ contains
     end do
   end subroutine diagonal_solve_schur
 
-  subroutine diagonal_flexibility(this, f)
+  subroutine diagonal_flexibility(this, k, f)
     class(diagonal_t), intent(in) :: this
-    real(wp), intent(out) :: f(:, :)
-    integer :: i, k, row
-    if (checks_on) call assert_shape(shape(f), [1, 1]*this%d*this%n_interface, &
-        'diagonal_flexibility', 'f')
+    integer, intent(in) :: k
+    real(wp), intent(out), contiguous :: f(:, :)
+    integer :: i, m, row
     f = zero
-    do k = 1, this%n_interface
+    row = 0
+    do m = this%schur%first(k), this%schur%first(k + 1) - 1
       do i = 1, this%d
-        row = this%d*(k - 1) + i
-        f(row, row) = this%inverse(i, this%last(k))
+        row = row + 1
+        f(row, row) = this%inverse(i, this%last(m))
       end do
     end do
   end subroutine diagonal_flexibility

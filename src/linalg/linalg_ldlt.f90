@@ -15,7 +15,6 @@ module linalg_ldlt
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_dense, only: dense_factor
   use linalg_kernels_2, only: eliminate_2, invert_2, forward_2, forward_part_2, backward_2
   use linalg_kernels_3, only: eliminate_3, invert_3, forward_3, forward_part_3, backward_3
   use linalg_order, only: choose_order
@@ -71,18 +70,19 @@ contains
     call divide(this, graph, rows)
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]
+    call this%schur%plan(graph, d, last)
     this%first(1) = 1
     do k = 1, this%leading
       this%first(k + 1) = this%first(k) + rows(k)
     end do
     this%info%factor_bytes = (8_i8*d*d + 4_i8)*(this%first(this%leading + 1) - 1) &
-        + (4_i8*d*(d + 1) + 4_i8)*this%leading + 8_i8*(d*size(last, kind=i8))**2
+        + (4_i8*d*(d + 1) + 4_i8)*this%leading + this%schur%bytes()
     call demand_memory(this, status)
     if (failed(status)) return
     allocate (this%row(this%first(this%leading + 1) - 1))
     allocate (this%l(d, d, size(this%row)), this%d_inverse(d*(d + 1)/2, this%leading), &
         this%work(d, graph%n))
-    this%schur%l = reshape([real(wp) ::], [d*size(last), d*size(last)], pad=[zero])
+    call this%schur%make()
   end subroutine ldlt_analyse
 
   !> Parts of the tree where the factor is large, and the order in which they come first.
@@ -156,7 +156,7 @@ contains
       end if
       y(:, :, k) = zero
     end do
-    call dense_factor(this%schur, status)
+    call this%schur%factor(status)
   end subroutine ldlt_factor
 
   !> Row k of A into y, and the nodes of row k of L, children before parents, in reach(top:n).
@@ -204,18 +204,22 @@ contains
     end if
   end subroutine invert_pivot
 
-  !> Row k of the Schur complement from y into the dense block (lower triangle).
+  !> Row k of the Schur complement from y into the dense block of its body (lower triangle).
   subroutine store_block_row(this, k, y)
     type(ldlt_t), intent(inout) :: this
     integer, intent(in) :: k
     real(wp), intent(inout) :: y(:, :, :)
-    integer :: i, a, b
-    a = this%d*(k - this%leading - 1) + 1
-    do i = this%leading + 1, k
-      b = this%d*(i - this%leading - 1) + 1
-      this%schur%l(a:a + this%d - 1, b:b + this%d - 1) = y(:, :, i)
-      y(:, :, i) = zero
-    end do
+    integer :: i, a, b, body, before
+    body = this%schur%body(k - this%leading)
+    before = this%leading + this%schur%first(body) - 1
+    a = this%d*(k - before - 1) + 1
+    associate (l => this%schur%block(body)%l)
+      do i = before + 1, k
+        b = this%d*(i - before - 1) + 1
+        l(a:a + this%d - 1, b:b + this%d - 1) = y(:, :, i)
+        y(:, :, i) = zero
+      end do
+    end associate
   end subroutine store_block_row
 
   !> y = L^-1 b, then the leading part is divided by the pivots.

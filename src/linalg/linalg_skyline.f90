@@ -8,7 +8,6 @@ module linalg_skyline
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_dense, only: dense_factor
   use linalg_order, only: choose_order, order_names, order_rcm
   use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
   implicit none
@@ -69,7 +68,8 @@ contains
       end do
     end do
     allocate (this%l(this%start(d*graph%n + 1) - 1))
-    this%schur%l = reshape([real(wp) ::], [d*size(last), d*size(last)], pad=[zero])
+    call this%schur%plan(graph, d, last)
+    call this%schur%make()
     this%info%factor_bytes = 8_i8*size(this%l, kind=i8)
   end subroutine skyline_analyse
 
@@ -105,7 +105,7 @@ contains
       return
     end do
     call take_block(this)
-    call dense_factor(this%schur, status)
+    call this%schur%factor(status)
   end subroutine skyline_factor
 
   !> Reduces one row: first to L D entries by the rows above (columns of the block take only the
@@ -137,14 +137,17 @@ contains
 
   subroutine take_block(this)
     type(skyline_t), intent(inout) :: this
-    integer :: row, column
+    integer :: row, column, body, before
     do row = this%leading + 1, this%d*this%n
-      this%schur%l(row - this%leading, row - this%leading) = this%pivot(row)
-      do column = this%leading + 1, row - 1
-        if (column < this%left(row)) cycle
-        this%schur%l(row - this%leading, column - this%leading) = &
-            this%l(this%start(row) + column - this%left(row))
-      end do
+      body = this%schur%body((row - this%leading - 1)/this%d + 1)
+      before = this%leading + this%d*(this%schur%first(body) - 1)
+      associate (l => this%schur%block(body)%l)
+        l(row - before, row - before) = this%pivot(row)
+        do column = before + 1, row - 1
+          if (column < this%left(row)) cycle
+          l(row - before, column - before) = this%l(this%start(row) + column - this%left(row))
+        end do
+      end associate
     end do
   end subroutine take_block
 

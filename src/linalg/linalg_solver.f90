@@ -8,12 +8,12 @@
 !> the block (d, m) in the order of `last`.
 module linalg_solver
   use base_checks, only: checks_on, assert, assert_shape
-  use base_kinds, only: wp, i8
+  use base_kinds, only: wp, i8, zero
   use base_status, only: status_t, fail, status_file
   use base_strings, only: to_text
   use base_system, only: machine_memory
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_dense, only: dense_spd_t, dense_solve, dense_inverse
+  use linalg_bodies, only: schur_t
   implicit none
   private
 
@@ -22,6 +22,7 @@ module linalg_solver
   type, public :: solver_options_t
     character(name_length) :: engine = 'AUTO'
     character(name_length) :: order = 'AUTO'
+    character(5) :: contact_storage = 'AUTO'   !< of W: AUTO, DENSE, BLOCK, NONE
     integer :: block_limit = 600   !< largest contact block (dofs) taken without a note
     integer :: threads = 1
     !> A pivot below this share of its own diagonal before elimination counts as null: its
@@ -50,13 +51,14 @@ module linalg_solver
     integer :: n_interface = 0
     logical :: takes_diagonal = .false.   !< `diagonal` of a matrix, and no other matrix
     integer, allocatable :: order(:)  !< (n) new -> old
-    type(dense_spd_t) :: schur        !< Schur complement S of the last nodes
+    type(schur_t) :: schur            !< Schur complement S of the last nodes, by bodies
   contains
     procedure(analyse_i), deferred :: analyse
     procedure(factor_i), deferred :: factor
     procedure(forward_i), deferred :: forward
     procedure :: solve_schur
     procedure :: flexibility
+    procedure :: body_flexibility
     procedure(backward_i), deferred :: backward
   end type solver_t
 
@@ -103,21 +105,43 @@ contains
   !> x_interface = S^-1 x_interface, x_interface (d, m).
   subroutine solve_schur(this, x_interface)
     class(solver_t), intent(in) :: this
-    real(wp), intent(inout) :: x_interface(:, :)
+    real(wp), intent(inout), contiguous :: x_interface(:, :)
     if (checks_on) call assert_shape(shape(x_interface), [this%d, this%n_interface], &
         'solve_schur', 'x_interface')
-    if (this%n_interface > 0) call dense_solve(this%schur, this%d*this%n_interface, &
-        x_interface)
+    call this%schur%solve(x_interface)
   end subroutine solve_schur
 
   !> Flexibility of the block, S^-1, as (dm, dm) [L/F], symmetric to the last bit.
   subroutine flexibility(this, f)
     class(solver_t), intent(in) :: this
-    real(wp), intent(out) :: f(:, :)
+    real(wp), intent(out), contiguous :: f(:, :)
+    real(wp), allocatable :: own(:, :)
+    integer :: k
     if (checks_on) call assert_shape(shape(f), [1, 1]*this%d*this%n_interface, &
         'flexibility', 'f')
-    if (this%n_interface > 0) call dense_inverse(this%schur, f)
+    if (this%schur%bodies == 1) then
+      call this%body_flexibility(1, f)
+      return
+    end if
+    f = zero
+    do k = 1, this%schur%bodies
+      associate (start => this%d*(this%schur%first(k) - 1), &
+          behind => this%d*(this%schur%first(k + 1) - 1))
+        allocate (own(behind - start, behind - start))
+        call this%body_flexibility(k, own)
+        f(start + 1:behind, start + 1:behind) = own
+        deallocate (own)
+      end associate
+    end do
   end subroutine flexibility
+
+  !> The same of the nodes of one body, number k of `schur`.
+  subroutine body_flexibility(this, k, f)
+    class(solver_t), intent(in) :: this
+    integer, intent(in) :: k
+    real(wp), intent(out), contiguous :: f(:, :)
+    call this%schur%inverse(k, f)
+  end subroutine body_flexibility
 
   !> x = A^-1 b in one call, for set-up work outside the step loop.
   subroutine solve_whole(solver, b, x)
@@ -136,11 +160,11 @@ contains
     work_of = 2.0e-9_wp*solver%d**3*real(solver%info%multiplications, wp)
   end function work_of
 
-  !> Bytes of the inverse of the contact block, which stands beside the factor. The block
-  !> itself, of the same size, is part of factor_bytes.
+  !> Bytes of the inverse of the contact block, body by body, which stands beside the factor.
+  !> The block itself, of the same size, is part of factor_bytes.
   pure integer(i8) function inverse_bytes(solver)
     class(solver_t), intent(in) :: solver
-    inverse_bytes = 8_i8*(solver%d*int(solver%n_interface, i8))**2
+    inverse_bytes = solver%schur%bytes()
   end function inverse_bytes
 
   !> Before anything is allocated: do the factor, of factor_bytes, and the inverse of the

@@ -10,7 +10,6 @@ module linalg_supernodal
   use base_kinds, only: wp, i8, zero, one
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
-  use linalg_dense, only: dense_factor
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_order, only: choose_order
   use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, forward_split, &
@@ -67,6 +66,7 @@ contains
     call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
         this%info%multiplications, status)
     if (failed(status)) return
+    call this%schur%plan(graph, d, last)
     call find_supernodes(graph, this%leading, d, this%order, this%supernodes)
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]
@@ -82,13 +82,13 @@ contains
     end do
     this%info%factor_bytes = 8_i8*(this%panel(this%supernodes%n + 1) - 1_i8) &
         + 16_i8*this%supernodes%n + 4_i8*size(this%supernodes%row, kind=i8) &
-        + 8_i8*(d*size(last, kind=i8))**2
+        + this%schur%bytes()
     call demand_memory(this, status)
     if (failed(status)) return
     if (this%options%threads > 1) call divide(this)
     allocate (this%l(this%panel(this%supernodes%n + 1) - 1_i8), this%work(d, graph%n), &
         this%y(highest, max(1, this%parts%n)))
-    this%schur%l = reshape([real(wp) ::], [d*size(last), d*size(last)], pad=[zero])
+    call this%schur%make()
   end subroutine supernodal_analyse
 
   !> Parts of the tree, where it is large enough for threads, and room for what they change
@@ -154,8 +154,10 @@ contains
     do s = 1, this%supernodes%n
       call give_last(this, s, update(s))
     end do
-    this%schur%l = this%schur%l*this%scale
-    call dense_factor(this%schur, status)
+    do s = 1, this%schur%bodies
+      this%schur%block(s)%l = this%schur%block(s)%l*this%scale
+    end do
+    call this%schur%factor(status)
   end subroutine supernodal_factor
 
   !> The parts of the tree by several threads.
@@ -234,15 +236,19 @@ contains
     class(supernodal_t), intent(inout) :: this
     type(graph_t), intent(in) :: graph
     type(block_matrix_t), intent(in) :: matrix
-    integer :: k, m, i, row, column
-    this%schur%l = zero
+    integer :: k, m, i, row, column, body, before
+    do body = 1, this%schur%bodies
+      this%schur%block(body)%l = zero
+    end do
     do k = this%leading + 1, this%n
-      row = this%d*(k - this%leading - 1)
+      body = this%schur%body(k - this%leading)
+      before = this%leading + this%schur%first(body)
+      row = this%d*(k - before)
       do m = graph%first(this%order(k)), graph%first(this%order(k) + 1) - 1
         i = this%new(graph%column(m))
         if (i <= this%leading .or. i > k) cycle
-        column = this%d*(i - this%leading - 1)
-        this%schur%l(row + 1:row + this%d, column + 1:column + this%d) = &
+        column = this%d*(i - before)
+        this%schur%block(body)%l(row + 1:row + this%d, column + 1:column + this%d) = &
             matrix%value(:, :, m)/this%scale
       end do
     end do
@@ -308,14 +314,17 @@ contains
     integer, intent(in) :: s
     type(update_t), intent(inout) :: update
     integer, allocatable :: to(:)
-    integer :: n, k
+    integer :: n, k, body
     if (.not. allocated(update%a)) return
     associate (p => this%supernodes)
       n = size(update%a, 1)
       if (n == 0) return
+      body = this%schur%body(p%row(p%start(s)) - this%leading)
       call list_places(this%d, p%row(p%start(s):p%start(s + 1) - 1) - this%leading, &
-          [(this%d*k, k=0, this%n_interface - 1)], to)
-      call add_columns(n, update%a, 1, n, to, size(this%schur%l, 1), this%schur%l)
+          [(this%d*(k - this%schur%first(body)), k=1, this%n_interface)], to)
+      associate (l => this%schur%block(body)%l)
+        call add_columns(n, update%a, 1, n, to, size(l, 1), l)
+      end associate
       deallocate (update%a)
     end associate
   end subroutine give_last

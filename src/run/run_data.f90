@@ -15,7 +15,9 @@ module run_data
   use cone_types, only: cone_options_t
   use deck_data, only: deck_t
   use deck_names, only: step_fixed
+  use linalg_bodies, only: body_blocks_t
   use linalg_graph, only: block_matrix_t
+  use linalg_near, only: near_t
   use linalg_solver, only: solver_t, solver_options_t
   use model_data, only: model_t
   use model_state, only: state_t
@@ -64,7 +66,8 @@ module run_data
   type, public :: operator_t
     class(solver_t), allocatable :: solver
     type(block_matrix_t) :: matrix
-    real(wp), allocatable :: schur_inverse(:, :)
+    type(body_blocks_t) :: schur_inverse
+    type(near_t) :: near                         !< in its place: contact_local
     real(wp), allocatable :: flexibility(:, :)   !< only with rigid parts: rigid_step_t
   end type operator_t
   !> Rigid parts in a step (run_rigid).
@@ -178,6 +181,7 @@ module run_data
     real(wp), allocatable :: load_0(:, :), load_1(:, :)    !< (dim, n) only with loads [F]
     real(wp), allocatable :: b_interface(:, :), x_interface(:, :)    !< (dim, m) interface
     real(wp), allocatable :: force(:, :)                   !< (dim, m) H' r
+    real(wp), allocatable :: x_contact(:, :)   !< (dim, m) motion, only where S^-1 is not kept
     ! (dim, n), only with refinement
     real(wp), allocatable :: correction(:, :), b_kept(:, :)
     type(newton_t), allocatable :: newton      !< only at finite deformation

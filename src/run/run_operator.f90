@@ -10,12 +10,16 @@ module run_operator
   use base_strings, only: to_text
   use base_timers, only: phase_factor
   use contact_condense, only: constrain_interface
+  use contact_local, only: start_local
+  use linalg_bodies, only: body_blocks_t, size_blocks, move_blocks
   use linalg_graph, only: block_matrix_t
+  use linalg_near, only: find_near, fill_near, fill_near_diagonal, move_near
   use linalg_registry, only: make_solver, engine_diagonal
   use linalg_solver, only: solver_t, solver_options_t, work_of
   use run_data, only: run_t, operator_t
   use run_motion, only: find_smooth_reactions
   use run_rigid, only: link_interface, keep_flexibility
+  use run_storage, only: choose_storage
   implicit none
   private
   public :: make_operators, change_operators, factor_matrix, renew_matrix, size_factor, &
@@ -83,26 +87,32 @@ contains
   !> Puts the matrix of a stage into its place, with its factor and the flexibility of the
   !> interface.
   subroutine use_operator(run, stage)
-    type(run_t), intent(inout) :: run
+    type(run_t), intent(inout), target :: run
     integer, intent(in) :: stage
     type(operator_t) :: kept
     if (stage == run%stage_in_use) return
     run%stage_in_use = stage
     call move_alloc(run%solver, kept%solver)
     call move_matrix(run%matrix, kept%matrix)
-    call move_alloc(run%contact%schur_inverse, kept%schur_inverse)
+    call move_blocks(run%contact%schur_inverse, kept%schur_inverse)
     call move_alloc(run%other%solver, run%solver)
     call move_matrix(run%other%matrix, run%matrix)
-    call move_alloc(run%other%schur_inverse, run%contact%schur_inverse)
+    call move_blocks(run%other%schur_inverse, run%contact%schur_inverse)
     call move_alloc(kept%solver, run%other%solver)
     call move_matrix(kept%matrix, run%other%matrix)
-    call move_alloc(kept%schur_inverse, run%other%schur_inverse)
+    call move_blocks(kept%schur_inverse, run%other%schur_inverse)
     if (allocated(run%rigid)) then
       call move_alloc(run%rigid%flexibility, kept%flexibility)
       call move_alloc(run%other%flexibility, run%rigid%flexibility)
       call move_alloc(kept%flexibility, run%other%flexibility)
     end if
     run%contact%w_is_current = .false.
+    if (.not. allocated(run%contact%local)) return
+    call move_near(run%contact%local%near, kept%near)
+    call move_near(run%other%near, run%contact%local%near)
+    call move_near(kept%near, run%other%near)
+    run%contact%local%solver => run%solver
+    call start_local(run%contact, run%system%n)
   end subroutine use_operator
 
   subroutine move_matrix(from, to)
@@ -121,7 +131,8 @@ contains
     integer :: stage, in_use
     if (failed(status)) return
     call run%timers%enter(phase_factor)
-    if (again) call size_interface(run)
+    if (again) call size_interface(run, status)
+    if (failed(status)) return
     in_use = run%stage_in_use
     do stage = 1, size(run%scheme%stage)
       if (allocated(run%other)) call use_operator(run, stage)
@@ -145,18 +156,23 @@ contains
   end subroutine renew_matrix
 
   !> Vectors of the interface nodes.
-  subroutine size_interface(run)
+  subroutine size_interface(run, status)
     type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
     integer :: d, m
+    call choose_storage(run, status)
+    if (failed(status)) return
     m = size(run%contact%interface_node)
     d = run%system%dim
     if (allocated(run%b_interface)) deallocate (run%b_interface, run%x_interface, run%force)
+    if (allocated(run%x_contact)) deallocate (run%x_contact)
     allocate (run%force(d, m))
+    if (allocated(run%contact%local)) allocate (run%x_contact(d, m), source=zero)
     if (allocated(run%rigid)) call link_interface(run)
     associate (kept => size(kept_nodes(run)))
       allocate (run%b_interface(d, kept), run%x_interface(d, kept))
     end associate
-    if (d*m > run%solver_options%block_limit) &
+    if (d*m > run%solver_options%block_limit .and. .not. allocated(run%contact%local)) &
         call add_message(run%notes, '', 'the contact interface has '//to_text(d*m)// &
         ' dofs, more than NLAST; it is kept dense all the same')
   end subroutine size_interface
@@ -166,8 +182,10 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     if (failed(status)) return
-    call size_interface(run)
+    call size_interface(run, status)
+    if (failed(status)) return
     if (allocated(run%newton)) call assemble_stage(run, 1, status)    ! AUTO looks at it
+    if (failed(status)) return
     call analyse_matrix(run, status)
   end subroutine size_factor
 
@@ -198,7 +216,7 @@ contains
     integer, intent(in) :: number
     logical, intent(in) :: again
     type(status_t), intent(inout) :: status
-    integer :: m
+    integer :: k
     call assemble_stage(run, number, status)
     if (failed(status)) return
     if (again) then
@@ -208,16 +226,47 @@ contains
     end if
     call run%solver%factor(run%system%graph, run%matrix, status)
     run%factors = run%factors + 1
-    m = size(run%contact%interface_node)
-    if (m == 0 .or. failed(status)) return
-    call size_flexibility(run%system%dim*m, run%contact%schur_inverse)
-    if (allocated(run%rigid)) then
+    if (size(run%contact%interface_node) == 0 .or. failed(status)) return
+    if (allocated(run%contact%local)) then
+      call fill_local(run, again, status)
+    else if (allocated(run%rigid)) then
+      call size_one_body(run%system%dim*size(run%contact%interface_node), &
+          run%contact%schur_inverse)
       call keep_flexibility(run)
     else
-      call run%solver%flexibility(run%contact%schur_inverse)
+      associate (inverse => run%contact%schur_inverse)
+        call size_blocks(run%solver%schur, inverse)
+        do k = 1, size(inverse%block)
+          call run%solver%body_flexibility(k, inverse%block(k)%a)
+        end do
+      end associate
       call constrain_interface(run%contact, run%system%fixed_list)
     end if
   end subroutine factor_stage
+
+  !> The near part of the flexibility of the interface, and the solver of the rest.
+  subroutine fill_local(run, again, status)
+    type(run_t), intent(inout), target :: run
+    logical, intent(in) :: again
+    type(status_t), intent(inout) :: status
+    integer :: k
+    associate (local => run%contact%local, node => run%contact%interface_node)
+      local%solver => run%solver
+      call start_local(run%contact, run%system%n)
+      if (again .or. .not. allocated(local%near%first)) call find_near(run%system%graph, &
+          run%system%dim, node, local%radius, local%near)
+      if (run%solver%takes_diagonal) then
+        do k = 1, size(node)
+          run%x_contact(:, k) = one/run%matrix%diagonal(:, node(k))
+        end do
+        call fill_near_diagonal(run%x_contact, local%near)
+      else
+        call fill_near(run%system%graph, run%matrix, node, local%margin, local%near, status)
+      end if
+      if (allocated(local%pattern)) deallocate (local%pattern, local%pattern_size)
+    end associate
+    if (.not. failed(status)) call constrain_interface(run%contact, run%system%fixed_list)
+  end subroutine fill_local
 
   !> Order and storage of the factor. Where the deck leaves the engine open and the work is that
   !> of a large body, dense panels take half the time in space (doc/performance.md), and no
@@ -284,24 +333,24 @@ contains
   pure function kept_nodes(run) result(list)
     type(run_t), intent(in) :: run
     integer, allocatable :: list(:)
-    if (allocated(run%rigid)) then
+    if (allocated(run%contact%local)) then
+      list = [integer ::]
+    else if (allocated(run%rigid)) then
       list = run%rigid%solver_node
     else
       list = run%contact%interface_node
     end if
   end function kept_nodes
 
-  !> That of the matrix beside the one in use is not sized with the interface.
-  !> (m, m) dofs.
-  subroutine size_flexibility(m, schur_inverse)
+  !> m dofs. Nodes of rigid parts couple whatever they touch.
+  subroutine size_one_body(m, schur_inverse)
     integer, intent(in) :: m
-    real(wp), allocatable, intent(inout) :: schur_inverse(:, :)
-    if (allocated(schur_inverse)) then
-      if (size(schur_inverse, 1) == m) return
-      deallocate (schur_inverse)
+    type(body_blocks_t), intent(inout) :: schur_inverse
+    if (allocated(schur_inverse%block)) then
+      if (schur_inverse%rows() == m) return
     end if
-    allocate (schur_inverse(m, m))
-  end subroutine size_flexibility
+    call schur_inverse%set_one_body(m)
+  end subroutine size_one_body
 
   subroutine shift_matrix(run)
     type(run_t), intent(inout) :: run

@@ -12,7 +12,7 @@ module run_plan
   use solid_block, only: force_conserving
   implicit none
   private
-  public :: make_plan, plan_line, add_feature
+  public :: make_plan, plan_line, add_feature, set_feature
 
 contains
 
@@ -213,6 +213,22 @@ contains
     plan%feature(plan%n)%on = on
     plan%feature(plan%n)%reason = reason
   end subroutine add_feature
+
+  !> A line that may be there already.
+  subroutine set_feature(plan, name, on, reason)
+    type(plan_t), intent(inout) :: plan
+    character(*), intent(in) :: name
+    logical, intent(in) :: on
+    character(*), intent(in) :: reason
+    integer :: k
+    do k = 1, plan%n
+      if (plan%feature(k)%name /= name) cycle
+      plan%feature(k)%on = on
+      plan%feature(k)%reason = reason
+      return
+    end do
+    call add_feature(plan, name, on, reason)
+  end subroutine set_feature
 
   !> One line of the plan.
   pure function plan_line(plan, k) result(line)

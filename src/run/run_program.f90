@@ -43,7 +43,7 @@ contains
   subroutine run_deck(storage)
     class(storage_t), allocatable, intent(inout) :: storage
     type(arguments_t) :: arguments
-    type(run_t), allocatable :: run
+    type(run_t), allocatable, target :: run
     type(status_t) :: status
     call watch_limits()
     allocate (run)

@@ -150,6 +150,8 @@ contains
           ', contact solves '//to_text(c%solves)//', sweeps '//to_text(c%sweeps)
       if (run%solver%info%iterations > 0_i8) write (unit, '(a)') 'conjugate gradients: '// &
           to_text(run%solver%info%iterations)//' iterations'
+      if (allocated(run%contact%local)) write (unit, '(a)') 'contact without S^-1: solves '// &
+          to_text(run%contact%local%solves)//', passes '//to_text(run%contact%local%passes)
       write (unit, '(a)') 'energy: kinetic '//to_text(l%kinetic)//', internal '// &
           to_text(l%internal)//', initial '//to_text(l%initial)//', external '// &
           to_text(l%external)//', motion '//to_text(l%motion)

@@ -111,7 +111,7 @@ contains
     type(run_t), intent(inout) :: run
     integer :: k, a, c, p
     associate (rigid => run%model%rigid, r => run%rigid, node => run%contact%interface_node, &
-        whole => run%contact%schur_inverse)
+        whole => run%contact%schur_inverse%block(1)%a)
       do k = 1, size(node)
         if (r%row(node(k)) == 0) then
           a = r%slot(node(k))

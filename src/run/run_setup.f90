@@ -17,6 +17,7 @@ module run_setup
   use deck_parameter, only: override_t
   use deck_reader, only: read_deck
   use base_strings, only: to_text
+  use linalg_bodies, only: find_bodies
   use model_data, only: controls_t
   use model_state, only: make_state
   use run_damping, only: make_damping, start_damping, update_damping
@@ -102,6 +103,7 @@ contains
     call make_system(run%model, massless, run%system, status)
     run%system%threads = run%solver_options%threads
     if (allocated(run%moved)) call tell_moved(run, status)
+    if (run%plan%contact .and. .not. failed(status)) call find_contact_bodies(run)
     if (failed(status)) return
     run%static_steps = static_steps(run%model%controls, run%plan%full_steps)
     run%step%mode = run%model%controls%step_mode
@@ -150,6 +152,16 @@ contains
     end if
     if (run%plan%contact) call first_lists(run, status)
   end subroutine prepare
+
+  !> The bodies of which interface nodes are, in scenes whose effective matrix couples no two.
+  subroutine find_contact_bodies(run)
+    type(run_t), intent(inout) :: run
+    integer :: bodies
+    if (allocated(run%model%rigid)) return
+    if (allocated(run%contact%body)) deallocate (run%contact%body)
+    allocate (run%contact%body(run%system%n))
+    call find_bodies(run%system%graph, run%contact%body, bodies)
+  end subroutine find_contact_bodies
 
   !> A note of nodes that were moved onto obstacles; fails where that has spoilt an element.
   subroutine tell_moved(run, status)

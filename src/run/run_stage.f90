@@ -11,6 +11,7 @@ module run_stage
   use base_strings, only: to_text, join_path
   use base_timers, only: phase_product, phase_solve, phase_contact
   use contact_condense, only: clear_constrained
+  use contact_local, only: move_by
   use contact_stage, only: solve_contact, correct_contact
   use linalg_solver, only: solve_whole
   use model_rigid, only: move_followers, gather_forces
@@ -47,8 +48,13 @@ contains
     call run%solver%forward(run%b, run%b_interface)
     run%x_interface = run%b_interface
     call run%solver%solve_schur(run%x_interface)
-    if (run%plan%contact) call add_contact(run, acting, status)
-    call run%solver%backward(run%x_interface, run%x)
+    if (allocated(run%contact%local)) then
+      call run%solver%backward(run%x_interface, run%x)
+      call add_local_contact(run, acting, status)
+    else
+      if (run%plan%contact) call add_contact(run, acting, status)
+      call run%solver%backward(run%x_interface, run%x)
+    end if
     run%solves = run%solves + 1
     if (allocated(run%rigid)) call follow(run, run%x)
     if (is_refined(run)) call refine(run, stage, acting, status)
@@ -113,6 +119,9 @@ contains
       if (allocated(run%rigid)) then
         call correct_contact(run%model, run%contact, run%x, run%force, run%rigid%x, done, &
             acting, status)
+      else if (allocated(run%contact%local)) then
+        call correct_contact(run%model, run%contact, run%x, run%force, run%x_contact, done, &
+            acting, status)
       else
         call correct_contact(run%model, run%contact, run%x, run%force, run%x_interface, done, &
             acting, status)
@@ -121,6 +130,8 @@ contains
       run%b = zero
       if (allocated(run%rigid)) then
         call add_interface_forces(run, run%rigid%x)
+      else if (allocated(run%contact%local)) then
+        call add_interface_forces(run, run%x_contact)
       else
         call add_interface_forces(run, run%x_interface)
       end if
@@ -229,6 +240,35 @@ contains
     end if
     call run%solver%solve_schur(run%x_interface)
   end subroutine add_contact
+
+  !> The same where S^-1 is not kept: from the whole free motion run%x to that with contact.
+  subroutine add_local_contact(run, acting, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(inout) :: acting
+    type(status_t), intent(inout) :: status
+    integer :: k
+    run%force = zero
+    if (run%contact%listed == 0 .and. run%contact%rows%n == 0) return
+    call run%timers%enter(phase_contact)
+    associate (node => run%contact%interface_node, local => run%contact%local)
+      do k = 1, size(node)
+        run%x_contact(:, k) = run%x(:, node(k))
+      end do
+      call solve_contact(run%model, run%contact, run%state%u, run%state%v, run%x_contact, &
+          largest_work(run%ledger), run%force, acting, status)
+      call run%timers%enter(phase_solve)
+      if (.not. acting) return
+      call move_by(run%contact, run%force)
+      if (local%is_exact) then
+        do k = 1, size(node)
+          run%x(:, node(k)) = run%x(:, node(k)) + local%motion(:, k)
+        end do
+      else
+        run%x = run%x + local%x
+      end if
+      call clear_constrained(run%contact, run%force)
+    end associate
+  end subroutine add_local_contact
 
   !> The contact problem of the step as a file, where the deck asks for it, solved or not.
   subroutine dump_contact(run, status)

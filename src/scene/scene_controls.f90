@@ -380,6 +380,7 @@ contains
       cone%warm_start = deck%integer(r, 'WARM') == 1
       second = deck%follow(r, 2)
       if (second > 0) then
+        solver%contact_storage = deck%word(second, 'WSTORE')
         controls%penetration_tolerance = deck%real(second, 'PENTOL')
         controls%frame = deck%word(second, 'FRAME')
         if (controls%is_finite .and. controls%frame == 'REF') call deck%complain(second, &

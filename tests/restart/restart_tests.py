@@ -44,6 +44,11 @@ def scene(name):
         make_bars.write(path, mass="DISPERSION", redist=1, **bars)
     elif name == "newmark":
         make_bars.write(path, scheme="NEWMARK", mu=0.2, slide=0.2, **bars)
+    elif name.startswith("near"):
+        mass = "LUMPED" if name == "near-lumped" else "CONSISTENT"
+        make_bars.write(path, mu=0.3, slide=0.3, poisson=0.3, mass=mass, **bars)
+        with open(path) as file:
+            return with_cards(file.read(), "*BIPACT_CONTACT\n\nBLOCK\n")
     elif name == "lumped":
         make_bars.write(path, mass="LUMPED", **bars)
     elif name == "explicit":
@@ -74,7 +79,7 @@ DAMPING = (
 )
 SCENES = (
     "smooth friction massless newmark lumped explicit asleep wall block pushed damped "
-    "damped-newmark stick-slip".split()
+    "damped-newmark stick-slip near near-lumped".split()
 )
 
 

@@ -65,9 +65,12 @@ contains
     contact%slot = contact%interface_node
     allocate (contact%constrained(0), contact%column(dim*nodes))
     call fill_random(b)
-    contact%schur_inverse = matmul(b, transpose(b))/nodes
+    call contact%schur_inverse%set_one_body(dim*nodes)
+    contact%schur_inverse%block(1)%a = matmul(b, transpose(b))/nodes
     do i = 1, dim*nodes
-      contact%schur_inverse(i, i) = contact%schur_inverse(i, i) + half
+      associate (a => contact%schur_inverse%block(1)%a)
+        a(i, i) = a(i, i) + half
+      end associate
     end do
     contact%cone%tolerance = 1.0e-13_wp
     call start_rows(contact%rows, dim=dim)

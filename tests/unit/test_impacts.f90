@@ -125,7 +125,8 @@ contains
     contact%slot = contact%interface_node
     allocate (contact%constrained(0))
     allocate (contact%column(2*nodes))
-    contact%schur_inverse = h**2*inverse_mass
+    call contact%schur_inverse%set_one_body(size(inverse_mass, 1))
+    contact%schur_inverse%block(1)%a = h**2*inverse_mass
     contact%cone%tolerance = tolerance
     contact%rule = contact_rule_t(level=level_pressed, before=-h, now=h)
     call start_rows(contact%rows)
@@ -164,7 +165,8 @@ contains
     free = zero
     call solve_contact(model, contact, free, v, free, one, force, acting, status)
     call check_true(.not. failed(status), 'an impact is solved: '//status_text(status))
-    v = v + reshape(matmul(contact%schur_inverse, reshape(force, [size(force)])), shape(v))/h
+    v = v + reshape(matmul(contact%schur_inverse%block(1)%a, reshape(force, &
+        [size(force)])), shape(v))/h
   end subroutine collide
 
 end program test_impacts

@@ -212,7 +212,7 @@ contains
     call make_contact(dim, d, n, 0.3_wp, contact)
     call build_w(contact)
     h = dense_h(contact%rows, d)
-    w = matmul(h, matmul(contact%schur_inverse, transpose(h)))
+    w = matmul(h, matmul(contact%schur_inverse%block(1)%a, transpose(h)))
     call check_equal(contact%n, n, label(dim, d)//'rows of W')
     call check_close(maxval(abs(contact%w%matrix - w)), zero, 128.0_wp*eps*maxval(abs(w)), &
         label(dim, d)//'W = H S^-1 H''')
@@ -239,7 +239,7 @@ contains
     call check_true(contact%rows%is_rigid(6) .and. contact%n == 5, &
         label(dim, dim)//'a row that is held')
     call fill_random(force)
-    x = matmul(contact%schur_inverse, reshape(force, [dim*nodes]))
+    x = matmul(contact%schur_inverse%block(1)%a, reshape(force, [dim*nodes]))
     call check_true(.not. any(abs(x([9*dim - dim + 1, 9*dim, 4*dim])) > zero), &
         label(dim, dim)//'held dofs stay')
     call clear_constrained(contact, force)
@@ -296,7 +296,7 @@ contains
     call add_contact_step(contact, zero, one, 0.1_wp, motion, other)
     call check_close(other%friction + other%normal, lost, 1.0e-12_wp, &
         label(dim, d)//'works as they are')
-    call check_close(norm2(reshape(x, [dim*nodes]) - matmul(contact%schur_inverse, &
+    call check_close(norm2(reshape(x, [dim*nodes]) - matmul(contact%schur_inverse%block(1)%a, &
         reshape(f, [dim*nodes]))), zero, 1.0e-12_wp, label(dim, d)//'x = S^-1 H'' r')
   end subroutine test_works
 
@@ -327,7 +327,8 @@ contains
       if (.not. contact%r(1, a) > zero) contact%rows%status(a) = contact_open
       call add_row_force(contact%rows, a, one, contact%rows%slot, f)
     end do
-    motion = free + reshape(matmul(contact%schur_inverse, reshape(f, [size(f)])), shape(free))
+    motion = free + reshape(matmul(contact%schur_inverse%block(1)%a, reshape(f, [size(f)])), &
+        shape(free))
     do a = 1, contact%n
       u = relative_displacement(contact%rows, a, contact%rows%point, motion)
       u(1) = u(1) + contact%rows%offset(a)
@@ -360,7 +361,8 @@ contains
       call fill_random(v)
       call solve_contact(model, contact, free, v, free, one, force, acting, status)
       call check_true(.not. failed(status), 'an impact is solved: '//status_text(status))
-      mean = v + reshape(matmul(contact%schur_inverse, reshape(force, [dim*nodes])), &
+      mean = v + reshape(matmul(contact%schur_inverse%block(1)%a, &
+          reshape(force, [dim*nodes])), &
           [dim, nodes])/(h*(one + e))
       work = sum(force*mean)
       size_of_work = norm2(force)*norm2(mean)
@@ -392,10 +394,10 @@ contains
     call make_contact(2, 2, n, 0.3_wp, plane)
     call make_contact(3, 3, 0, 0.3_wp, space)
     place = [((3*(i - 1) + a, a=1, 2), i=1, nodes)]
-    space%schur_inverse = zero
-    space%schur_inverse(place, place) = plane%schur_inverse
+    space%schur_inverse%block(1)%a = zero
+    space%schur_inverse%block(1)%a(place, place) = plane%schur_inverse%block(1)%a
     do i = 3, 3*nodes, 3
-      space%schur_inverse(i, i) = one
+      space%schur_inverse%block(1)%a(i, i) = one
     end do
     do a = 1, n
       associate (rows => plane%rows)
@@ -439,7 +441,8 @@ contains
         whole(3*i - 2:3*i, 3*i - 2:3*i) = b
       end do
       call make_contact(3, 3, 0, 0.5_wp, turned)
-      turned%schur_inverse = matmul(whole, matmul(first%schur_inverse, transpose(whole)))
+      turned%schur_inverse%block(1)%a = matmul(whole, &
+          matmul(first%schur_inverse%block(1)%a, transpose(whole)))
       do a = 1, n
         associate (rows => first%rows)
           associate (p => rows%point(rows%first(a):rows%first(a + 1) - 1), &
