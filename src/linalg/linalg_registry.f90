@@ -15,6 +15,8 @@ module linalg_registry
 
   !> The engine of diagonal matrices, which takes no other: chosen by what makes the matrix.
   character(*), parameter, public :: engine_diagonal = 'DIAGONAL'
+  !> The engine of several ranks, which bin/bipact-mpi alone has.
+  character(*), parameter, public :: engine_ranks = 'MUMPS'
 
 contains
 
@@ -27,6 +29,9 @@ contains
     call find_engine(options%engine, names, solver)
     if (allocated(solver)) then
       solver%options = options
+    else if (options%engine == engine_ranks) then
+      call fail(status, status_deck, 'solver engine "'//engine_ranks//'" is not in this '// &
+          'program', hint='run bin/bipact-mpi, which has it, or choose ENGINE AUTO')
     else
       call fail(status, status_deck, 'solver engine "'//trim(options%engine)// &
           '" is not available', hint='choose one of AUTO, '//join(names, ', '))
@@ -38,6 +43,7 @@ contains
     character(name_length), allocatable, intent(out) :: names(:)
     class(solver_t), allocatable :: none
     call find_engine('', names, none)
+    names = [character(name_length) :: names, engine_ranks]
   end subroutine engine_names
 
   !> Names all engines and makes the wanted one; AUTO is the first. solver is not allocated for

@@ -51,7 +51,12 @@ contains
     type(status_t), intent(inout) :: status
     type(solver_options_t) :: options
     options = run%solver_options
-    if (has_diagonal_matrix(run, stage)) options%engine = engine_diagonal
+    if (has_diagonal_matrix(run, stage)) then
+      options%engine = engine_diagonal
+    else if (associated(run%team)) then
+      call run%team%make_solver(options, solver)
+      return
+    end if
     call make_solver(options, solver, status)
   end subroutine make_engine
 
@@ -167,13 +172,12 @@ contains
         call diagonal_matrix(run%system, stage%c_m, run%matrix)
       else if (allocated(run%newton)) then
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
-            run%matrix, run%state%u, run%x)
+            run%matrix, run%state%u, run%x, shift=run%shift)
       else
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
-            run%matrix)
+            run%matrix, shift=run%shift)
       end if
     end associate
-    if (allocated(run%shift)) call shift_matrix(run)
     if (again) then
       call analyse_matrix(run, status)
       if (failed(status)) return
@@ -202,6 +206,7 @@ contains
     real(wp), parameter :: much_work = 0.1_wp    ! Gflop
     call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
     options = run%solver_options
+    if (associated(run%team)) return
     if (failed(status) .or. options%engine /= 'AUTO' .or. run%solver%takes_diagonal .or. &
         options%null_pivot > zero .or. run%solver%info%engine == 'SUPERNODAL') return
     if (run%system%dim == 2 .or. work_of(run%solver) < much_work) return
@@ -232,16 +237,5 @@ contains
     end if
     allocate (schur_inverse(m, m))
   end subroutine size_flexibility
-
-  subroutine shift_matrix(run)
-    type(run_t), intent(inout) :: run
-    integer :: i, k, d
-    do i = 1, run%system%n
-      k = run%system%graph%position(i, i)
-      do d = 1, run%system%dim
-        run%matrix%value(d, d, k) = run%matrix%value(d, d, k) + run%shift(i)
-      end do
-    end do
-  end subroutine shift_matrix
 
 end module run_operator

@@ -99,7 +99,7 @@ contains
     else
       allocate (run%contact%interface_node(0), run%contact%pairing(0), run%contact%rows)
     end if
-    call make_system(run%model, massless, run%system, status)
+    call make_system(run%model, massless, run%system, status, run%team)
     if (allocated(run%moved)) call tell_moved(run, status)
     if (failed(status)) return
     run%static_steps = static_steps(run%model%controls, run%plan%full_steps)
