@@ -3,9 +3,9 @@
 !> ranks, with the Schur complement of the last dofs on the first one. All ranks call the
 !> procedures together; right-hand sides and solutions are those of the first.
 module mpi_engine
-  use base_kinds, only: wp, i8
+  use base_kinds, only: wp, i8, zero, one
   use linalg_graph, only: graph_t, block_matrix_t
-  use mpi_link, only: link_t
+  use mpi_link, only: link_t, give_back_memory
   implicit none
   private
   include 'dmumps_struc.h'
@@ -13,6 +13,9 @@ module mpi_engine
   type, public :: engine_t
     type(dmumps_struc), pointer :: mumps => null()
     integer :: n_interface = 0                    !< dofs
+    !> 1 where all dofs are of the interface, of which MUMPS demands another one: A = 1 there
+    integer :: more = 0
+    logical :: is_first = .false.                 !< on the first rank
     integer, allocatable :: node(:)               !< of each row of the graph of its entries
   end type engine_t
 
@@ -36,7 +39,7 @@ contains
       m%icntl(8) = 0                    ! no scaling
       m%icntl(10) = 0
       m%icntl(13) = 1                   ! its root by itself: pivots are counted
-      m%icntl(14) = 40                  ! per cent of work space beyond the estimate
+      m%icntl(14) = 10                  ! per cent of work space beyond the estimate
       m%icntl(18) = 3                   ! each rank has its entries
       m%icntl(28) = 1
     end associate
@@ -66,41 +69,50 @@ contains
     engine%node = node
     associate (m => engine%mumps)
       call forget_order(m)
-      m%n = d*n
-      call list_entries(m, d, graph, node)
+      engine%more = merge(1, 0, last == n)
+      engine%is_first = size(order) > 0
+      m%n = d*n + engine%more
+      call list_entries(m, d, graph, node, more_entries(engine))
       if (size(order) > 0) then
         allocate (m%perm_in(m%n), m%listvar_schur(d*last))
         do k = 1, n
           do i = 1, d
-            m%perm_in(d*(order(k) - 1) + i) = d*(k - 1) + i
+            m%perm_in(d*(order(k) - 1) + i) = d*(k - 1) + i + engine%more
             if (k > n - last) m%listvar_schur(d*(k - n + last - 1) + i) = d*(order(k) - 1) + i
           end do
         end do
+        if (engine%more > 0) m%perm_in(m%n) = 1
         allocate (m%rhs(m%n), m%redrhs(max(1, d*last)))
         if (last > 0) allocate (m%schur((d*last)**2))
       end if
       m%icntl(19) = merge(1, 0, last > 0)
       m%size_schur = d*last
+      call give_back_memory()
       call call_mumps(m, 1)
       call forget_entries(m)
+      call give_back_memory()
       info = m%infog(1:2)
     end associate
   end subroutine analyse_engine
 
   !> Numerical factor of the entries, and on the first rank the lower triangle of the Schur
-  !> complement. info: of MUMPS; info(1) = -10 where a pivot is not positive.
-  subroutine factor_engine(engine, d, graph, matrix, schur, info)
+  !> complement. The matrix is kept, or forgotten before it is factored. info: of MUMPS; info(1)
+  !> = -10 where a pivot is not positive.
+  subroutine factor_engine(engine, d, graph, matrix, is_kept, schur, info)
     type(engine_t), intent(inout) :: engine
     integer, intent(in) :: d
     type(graph_t), intent(in) :: graph
-    type(block_matrix_t), intent(in) :: matrix
+    type(block_matrix_t), intent(inout) :: matrix
     real(wp), intent(inout) :: schur(:, :)
+    logical, intent(in) :: is_kept
     integer, intent(out) :: info(2)
     integer, parameter :: most_trials = 6
     integer :: trial, i, j
     associate (m => engine%mumps)
-      call list_entries(m, d, graph, engine%node)
+      call list_entries(m, d, graph, engine%node, more_entries(engine))
       call list_values(m, d, graph, matrix)
+      if (.not. is_kept .and. allocated(matrix%value)) deallocate (matrix%value)
+      call give_back_memory()
       do trial = 1, most_trials
         call call_mumps(m, 2)
         info = m%infog(1:2)
@@ -108,6 +120,7 @@ contains
         m%icntl(14) = 2*m%icntl(14)
       end do
       call forget_entries(m)
+      call give_back_memory()
       if (info(1) == 0 .and. m%infog(12) > 0) info = [-10, m%infog(12)]
       if (info(1) < 0) return
       do j = 1, size(schur, 2)
@@ -126,7 +139,8 @@ contains
     real(wp), intent(inout) :: b_interface(:, :)
     associate (m => engine%mumps)
       call set_right_side(m)
-      if (size(b) > 0) m%rhs = reshape(b, [m%n])
+      if (size(b) > 0) m%rhs(:size(b)) = reshape(b, [size(b)])
+      if (size(b) > 0 .and. engine%more > 0) m%rhs(m%n) = zero
       m%icntl(26) = merge(1, 0, engine%n_interface > 0)
       m%lredrhs = max(1, engine%n_interface)
       call call_mumps(m, 3)
@@ -146,7 +160,7 @@ contains
         m%icntl(26) = 2
         call call_mumps(m, 3)
       end if
-      if (size(x) > 0) x = reshape(m%rhs, shape(x))
+      if (size(x) > 0) x = reshape(m%rhs(:size(x)), shape(x))
     end associate
   end subroutine expand
 
@@ -159,14 +173,14 @@ contains
   end subroutine set_right_side
 
   !> Rows and columns of the lower triangle of this rank's entries.
-  subroutine list_entries(m, d, graph, node)
+  subroutine list_entries(m, d, graph, node, more)
     type(dmumps_struc), intent(inout) :: m
     integer, intent(in) :: d
     type(graph_t), intent(in) :: graph
-    integer, intent(in) :: node(:)
+    integer, intent(in) :: node(:), more
     integer :: i, k, j, a, b
     integer(i8) :: entry
-    m%nnz_loc = count_entries(d, graph)
+    m%nnz_loc = count_entries(d, graph) + more
     allocate (m%irn_loc(m%nnz_loc), m%jcn_loc(m%nnz_loc))
     entry = 0_i8
     do i = 1, graph%n
@@ -182,6 +196,8 @@ contains
         end do
       end do
     end do
+    if (more > 0) m%irn_loc(m%nnz_loc) = m%n
+    if (more > 0) m%jcn_loc(m%nnz_loc) = m%n
   end subroutine list_entries
 
   !> Their values, in the same order.
@@ -192,7 +208,7 @@ contains
     type(block_matrix_t), intent(in) :: matrix
     integer :: i, k, j, a, b
     integer(i8) :: entry
-    allocate (m%a_loc(m%nnz_loc))
+    allocate (m%a_loc(m%nnz_loc), source=one)
     entry = 0_i8
     do i = 1, graph%n
       do k = graph%first(i), graph%first(i + 1) - 1
@@ -207,6 +223,12 @@ contains
       end do
     end do
   end subroutine list_values
+
+  !> The first rank has the entry of the dof beyond the interface.
+  pure integer function more_entries(engine)
+    type(engine_t), intent(in) :: engine
+    more_entries = merge(engine%more, 0, engine%is_first)
+  end function more_entries
 
   pure integer(i8) function count_entries(d, graph)
     integer, intent(in) :: d

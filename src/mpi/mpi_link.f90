@@ -3,7 +3,7 @@
 !> for what it asks. Each message goes between the first rank and one other, in one order, so
 !> that none waits for one that waits for it.
 module mpi_link
-  use, intrinsic :: iso_c_binding, only: c_int
+  use, intrinsic :: iso_c_binding, only: c_int, c_size_t
   use base_kinds, only: wp
   use mpi_f08, only: mpi_comm, mpi_comm_world, mpi_comm_rank, mpi_comm_size, mpi_init, &
       mpi_finalize, mpi_send, mpi_recv, mpi_iprobe, mpi_probe, mpi_get_count, mpi_status, &
@@ -24,10 +24,14 @@ module mpi_link
       import :: c_int
       integer(c_int), value, intent(in) :: microseconds
     end function c_usleep
+    integer(c_int) function c_malloc_trim(pad) bind(c, name='malloc_trim')
+      import :: c_int, c_size_t
+      integer(c_size_t), value, intent(in) :: pad
+    end function c_malloc_trim
   end interface
 
   public :: open_link, close_link, send_numbers, receive_numbers, send_integers, &
-      receive_integers, wait_for_header, waiting_numbers
+      receive_integers, wait_for_header, waiting_numbers, give_back_memory
 
 contains
 
@@ -104,5 +108,12 @@ contains
     end do
     call receive_numbers(link, 0, header_length, header)
   end subroutine wait_for_header
+
+  !> Memory that is free within the process goes back to the system: what was used before a
+  !> factor does not stand beside it.
+  subroutine give_back_memory()
+    integer(c_int) :: ignored
+    ignored = c_malloc_trim(0_c_size_t)
+  end subroutine give_back_memory
 
 end module mpi_link

@@ -26,7 +26,8 @@ module mpi_partition
 contains
 
   !> owner (elements): the rank, from 0, of each element that is strained; -1 of rigid parts.
-  !> Fails where there are more ranks than such elements.
+  !> Fails where there are more ranks than elements; one may be left without where parts are
+  !> rigid.
   subroutine find_owners(ranks, nodes, dim, block, block_of, owner, status)
     integer, intent(in) :: ranks, nodes, dim
     type(element_block_t), intent(in) :: block(:)
@@ -39,10 +40,14 @@ contains
     integer :: e, k, m
     list = pack([(e, e=1, size(block_of))], .not. block(block_of)%is_rigid)
     allocate (owner(size(block_of)), source=-1)
-    if (size(list) < ranks) call fail(status, status_deck, 'more ranks ('//to_text(ranks)// &
-        ') than elements that are strained ('//to_text(size(list))//')', &
-        hint='start bipact-mpi with fewer ranks: mpirun -n '//to_text(max(1, size(list))))
+    if (size(owner) < ranks) call fail(status, status_deck, 'more ranks ('//to_text(ranks)// &
+        ') than elements ('//to_text(size(owner))//')', &
+        hint='start bipact-mpi with fewer ranks: mpirun -n '//to_text(size(owner)))
     if (failed(status)) return
+    if (size(list) <= ranks) then
+      owner(list) = [(k, k=0, size(list) - 1)]
+      return
+    end if
     m = 0
     do k = 1, size(list)
       m = m + block(block_of(list(k)))%nodes

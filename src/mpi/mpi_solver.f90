@@ -129,6 +129,7 @@ contains
     type(graph_t), intent(in) :: graph
     type(block_matrix_t), intent(in) :: matrix
     type(status_t), intent(inout) :: status
+    type(block_matrix_t) :: whole
     integer :: info(2)
     if (this%is_shared .eqv. allocated(matrix%value)) &
         call analyse_all(this, graph, .not. allocated(matrix%value), status)
@@ -136,10 +137,10 @@ contains
     call ask(this, task_factor)
     if (this%is_shared) then
       call factor_engine(this%engine, this%d, this%domain%system%graph, this%domain%matrix, &
-          this%schur%l, info)
-      deallocate (this%domain%matrix%value)
+          .false., this%schur%l, info)
     else
-      call factor_engine(this%engine, this%d, graph, matrix, this%schur%l, info)
+      whole = matrix
+      call factor_engine(this%engine, this%d, graph, whole, .false., this%schur%l, info)
     end if
     call judge(info, status)
     if (failed(status)) return

@@ -140,11 +140,10 @@ contains
       end if
     case (task_factor)
       if (is_shared) then
-        call factor_engine(engine, nint(header(5)), domain%system%graph, domain%matrix, none, &
-            info)
-        deallocate (domain%matrix%value)
+        call factor_engine(engine, nint(header(5)), domain%system%graph, domain%matrix, &
+            .false., none, info)
       else
-        call factor_engine(engine, nint(header(5)), no_graph, no_matrix, none, info)
+        call factor_engine(engine, nint(header(5)), no_graph, no_matrix, .true., none, info)
       end if
     case (task_condense)
       call condense(engine, none, none)
