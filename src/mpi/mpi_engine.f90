@@ -82,7 +82,7 @@ contains
           end do
         end do
         if (engine%more > 0) m%perm_in(m%n) = 1
-        allocate (m%rhs(m%n), m%redrhs(max(1, d*last)))
+        allocate (m%redrhs(max(1, d*last)))
         if (last > 0) allocate (m%schur((d*last)**2))
       end if
       m%icntl(19) = merge(1, 0, last > 0)
@@ -90,6 +90,9 @@ contains
       call give_back_memory()
       call call_mumps(m, 1)
       call forget_entries(m)
+      if (associated(m%perm_in)) deallocate (m%perm_in)
+      nullify (m%perm_in)
+      if (engine%is_first) allocate (m%rhs(m%n))
       call give_back_memory()
       info = m%infog(1:2)
     end associate
@@ -103,12 +106,15 @@ contains
     integer, intent(in) :: d
     type(graph_t), intent(in) :: graph
     type(block_matrix_t), intent(inout) :: matrix
-    real(wp), intent(inout) :: schur(:, :)
+    real(wp), allocatable, intent(inout) :: schur(:, :)
     logical, intent(in) :: is_kept
     integer, intent(out) :: info(2)
     integer, parameter :: most_trials = 6
-    integer :: trial, i, j
+    integer :: trial, i, j, n
     associate (m => engine%mumps)
+      if (engine%is_first .and. engine%n_interface > 0 .and. .not. associated(m%schur)) &
+          allocate (m%schur(engine%n_interface**2))
+      if (allocated(schur)) deallocate (schur)
       call list_entries(m, d, graph, engine%node, more_entries(engine))
       call list_values(m, d, graph, matrix)
       if (.not. is_kept .and. allocated(matrix%value)) deallocate (matrix%value)
@@ -122,12 +128,16 @@ contains
       call forget_entries(m)
       call give_back_memory()
       if (info(1) == 0 .and. m%infog(12) > 0) info = [-10, m%infog(12)]
-      if (info(1) < 0) return
-      do j = 1, size(schur, 2)
-        do i = j, size(schur, 1)
-          schur(i, j) = m%schur((i - 1)*size(schur, 1) + j)   ! by rows
+      if (info(1) < 0 .or. .not. engine%is_first) return
+      n = engine%n_interface
+      allocate (schur(n, n), source=zero)
+      do j = 1, n
+        do i = j, n
+          schur(i, j) = m%schur((i - 1)*n + j)   ! by rows
         end do
       end do
+      if (n > 0) deallocate (m%schur)
+      nullify (m%schur)
     end associate
   end subroutine factor_engine
 

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Which rank has which element: domains of about as many elements, with few nodes between them,
-!> by METIS (Karypis & Kumar 1998).
+!> Which rank has which element: domains with few nodes between them, by METIS (Karypis & Kumar
+!> 1998). The first rank, which has the whole scene besides, has a quarter of the elements that it
+!> would with equal shares; the others have as many as each other.
 module mpi_partition
-  use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_null_ptr
+  use, intrinsic :: iso_c_binding, only: c_int, c_float, c_ptr, c_null_ptr
   use assembly_blocks, only: element_block_t
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
   use base_strings, only: to_text
@@ -13,12 +14,13 @@ module mpi_partition
   interface
     integer(c_int) function metis_part_mesh_dual(ne, nn, eptr, eind, vwgt, vsize, ncommon, &
         nparts, tpwgts, options, objval, epart, npart) bind(c, name='METIS_PartMeshDual')
-      import :: c_int, c_ptr
+      import :: c_int, c_ptr, c_float
       integer(c_int), intent(in) :: ne, nn
       integer(c_int), intent(inout) :: eptr(*), eind(*)
       type(c_ptr), value, intent(in) :: vwgt, vsize
       integer(c_int), intent(in) :: ncommon, nparts
-      type(c_ptr), value, intent(in) :: tpwgts, options
+      real(c_float), intent(in) :: tpwgts(*)
+      type(c_ptr), value, intent(in) :: options
       integer(c_int), intent(out) :: objval, epart(*), npart(*)
     end function metis_part_mesh_dual
   end interface
@@ -36,6 +38,7 @@ contains
     type(status_t), intent(inout) :: status
     integer(c_int), allocatable :: start(:), member(:), part(:), node_part(:)
     integer, allocatable :: list(:)
+    real(c_float) :: share(ranks)
     integer(c_int) :: cut, info
     integer :: e, k, m
     list = pack([(e, e=1, size(block_of))], .not. block(block_of)%is_rigid)
@@ -61,10 +64,12 @@ contains
       end associate
     end do
     part = 0
+    share = (1.0_c_float - 0.25_c_float/real(ranks, c_float))/max(1, ranks - 1)
+    share(1) = 1.0_c_float - sum(share(2:))
     info = 1
     if (ranks > 1) info = metis_part_mesh_dual(int(size(list), c_int), int(nodes, c_int), &
         start, member, c_null_ptr, c_null_ptr, int(dim, c_int), int(ranks, c_int), &
-        c_null_ptr, c_null_ptr, cut, part, node_part)
+        share, c_null_ptr, cut, part, node_part)
     if (info /= 1) call fail(status, status_numerical, 'METIS found no domains', &
         hint='start bipact-mpi with fewer ranks')
     owner(list) = part

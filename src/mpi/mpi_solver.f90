@@ -53,7 +53,6 @@ contains
         this%info%multiplications, status)
     if (failed(status)) return
     if (allocated(this%schur%l)) deallocate (this%schur%l)
-    allocate (this%schur%l(d*size(last), d*size(last)), source=zero)
     call analyse_all(this, graph, allocated(this%domain%matrix%value), status)
   end subroutine mumps_analyse
 

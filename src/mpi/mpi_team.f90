@@ -12,7 +12,7 @@ module mpi_team
   use mpi_domain, only: domain_t, find_forces, find_weighted_forces, find_products, &
       list_forces, list_products, assemble
   use mpi_link, only: link_t, header_length, close_link, send_numbers, receive_numbers, &
-      send_integers
+      send_integers, give_back_memory
   use mpi_partition, only: find_owners
   use mpi_share, only: part_t, make_parts, send_domains
   use mpi_solver, only: mumps_t
@@ -64,6 +64,7 @@ contains
     end do
     if (allocated(this%buffer)) deallocate (this%buffer)
     allocate (this%buffer(model%dim, most))
+    call give_back_memory()
   end subroutine cluster_share
 
   !> The header of a task, with up to three numbers.

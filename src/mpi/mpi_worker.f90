@@ -123,6 +123,7 @@ contains
     type(graph_t) :: no_graph
     type(block_matrix_t) :: no_matrix
     real(wp) :: none(0, 0)
+    real(wp), allocatable :: no_block(:, :)
     integer :: info(2)
     logical :: is_shared
     allocate (no_graph%first(1), source=1)
@@ -141,9 +142,9 @@ contains
     case (task_factor)
       if (is_shared) then
         call factor_engine(engine, nint(header(5)), domain%system%graph, domain%matrix, &
-            .false., none, info)
+            .false., no_block, info)
       else
-        call factor_engine(engine, nint(header(5)), no_graph, no_matrix, .true., none, info)
+        call factor_engine(engine, nint(header(5)), no_graph, no_matrix, .true., no_block, info)
       end if
     case (task_condense)
       call condense(engine, none, none)
