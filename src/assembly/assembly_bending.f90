@@ -7,7 +7,8 @@ module assembly_bending
   use assembly_system, only: system_t
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
-  use element_bending, only: mode_amplitude, quad_mode_energy, energy_of_modes, pair_mode_energy, &
+  use element_bending, only: mode_amplitude, quad_mode_energy, energy_of_modes, &
+      pair_mode_energy, &
       bending_energy
   use model_data, only: model_t
   implicit none

@@ -6,7 +6,8 @@ module element_bending
   use base_kinds, only: wp, half
   implicit none
   private
-  public :: mode_amplitude, quad_mode_energy, quad_mode_moduli, energy_of_modes, pair_mode_energy, bending_energy
+  public :: mode_amplitude, quad_mode_energy, quad_mode_moduli, &
+      energy_of_modes, pair_mode_energy, bending_energy
 
 contains
 

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which rank has which element: domains with few nodes between them, by METIS (Karypis & Kumar
-!> 1998). The first rank, which has the whole scene besides, has a quarter of the elements that it
-!> would with equal shares; the others have as many as each other.
+!> 1998). The first rank, which has the whole scene besides, has a quarter of the elements that
+!> it would with equal shares; the others have as many as each other.
 module mpi_partition
   use, intrinsic :: iso_c_binding, only: c_int, c_float, c_ptr, c_null_ptr
   use assembly_blocks, only: element_block_t

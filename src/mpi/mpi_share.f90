@@ -87,8 +87,8 @@ contains
     call keep_rest(graph, part(0), own, is_taken)
   end subroutine send_domains
 
-  !> The blocks of a rank, (nodes of an element, 1 = ring, order of its stiffness, elements), and
-  !> the nodes of its elements, numbered among themselves.
+  !> The blocks of a rank, (nodes of an element, 1 = ring, order of its stiffness, elements),
+  !> and the nodes of its elements, numbered among themselves.
   subroutine describe(dim, nodes, block, owner, rank, part, shape_of, member)
     integer, intent(in) :: dim, nodes
     type(element_block_t), intent(in) :: block(:)

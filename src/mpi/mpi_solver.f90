@@ -110,8 +110,8 @@ contains
     case (0:)
       continue
     case (-10, -40)
-      call fail(status, status_numerical, 'lost pivot: the effective matrix is not positive '// &
-          'definite', hint='check mass, stiffness and time step')
+      call fail(status, status_numerical, 'lost pivot: the effective matrix is not '// &
+          'positive definite', hint='check mass, stiffness and time step')
     case (-7, -13, -19, -5)
       call fail(status, status_numerical, 'MUMPS lacks memory (code '//to_text(info(1))// &
           ', '//to_text(info(2))//')', hint='more ranks on more machines need less on each')

@@ -141,7 +141,11 @@ contains
     if (is_plan) nullify (run%team)
     if (is_asked .and. is_plan) run%solver_options%engine = 'AUTO'
     if (is_asked .or. .not. associated(run%team)) return
-    if (run%team%ranks > 1 .and. run%solver_options%engine == 'AUTO') return
+    if (run%team%ranks > 1 .and. run%solver_options%engine == 'AUTO') then
+      call add_message(run%notes, '', to_text(run%team%ranks)//' ranks share elements and '// &
+          'factor; they add in another order each time, so that runs agree to round-off')
+      return
+    end if
     if (run%team%ranks > 1) call add_message(run%notes, '', 'ENGINE '// &
         trim(run%solver_options%engine)//' works on one rank; the other '// &
         to_text(run%team%ranks - 1)//' wait')
