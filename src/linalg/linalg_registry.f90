@@ -38,12 +38,11 @@ contains
     end if
   end subroutine make_solver
 
-  !> The names of all engines.
+  !> The names of all engines that this program has.
   subroutine engine_names(names)
     character(name_length), allocatable, intent(out) :: names(:)
     class(solver_t), allocatable :: none
     call find_engine('', names, none)
-    names = [character(name_length) :: names, engine_ranks]
   end subroutine engine_names
 
   !> Names all engines and makes the wanted one; AUTO is the first. solver is not allocated for

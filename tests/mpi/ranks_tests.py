@@ -19,7 +19,7 @@ PROGRAM = re.sub(r"bipact([^/]*)$", r"bipact-mpi\1", BIPACT)
 # Scales of what is compared: columns of one kind share theirs, for one that is zero but for
 # round-off has none. Bounds: "equal" of doc/verification.md, forces 1e-6, all else 1e-9.
 KINDS = {
-    "nodout": [(("dx", "dy", "dz"), 1e-9), (("vmx", "vmy", "vmz"), 1e-9)],
+    "nodout": [(("ux", "uy", "uz"), 1e-9), (("vmx", "vmy", "vmz"), 1e-9)],
     "glstat": [
         (("kinetic", "internal", "total", "external", "motion"), 1e-9),
         (("friction", "contact", "algorithmic", "damping", "kinetic", "internal"), 1e-9),
