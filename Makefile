@@ -15,18 +15,26 @@ B := build/$(FLAVOUR)
 BIN := bin/bipact$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 STORE_BIN := bin/bipact-hdf5$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 FCLIB_BIN := bin/bipact-fclib$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
+MPI_BIN := bin/bipact-mpi$(if $(filter-out release,$(FLAVOUR)),-$(FLAVOUR))
 LIB := $(B)/libbipact.a
 SUPPORT := $(B)/libsupport.a
 example-programs := $(patsubst examples/%.f90,$(B)/examples/%,$(wildcard examples/*.f90))
 # HDF5, for bipact-hdf5 and bipact-fclib alone: Debian keeps it under hdf5/serial and calls it _serial.
 HDF5_MODULES ?= $(firstword $(patsubst %/hdf5.mod,%,$(wildcard /usr/include/hdf5/serial/hdf5.mod \
                 /usr/include/hdf5.mod /usr/lib64/gfortran/modules/hdf5.mod)))
+# MPI and MUMPS, for bipact-mpi alone: the compiler of the distribution's MPI tells its flags.
+MPIFC ?= mpifort
+MUMPS_INCLUDE ?= $(patsubst %/dmumps_struc.h,%,$(firstword $(wildcard /usr/include/dmumps_struc.h \
+                 /usr/include/MUMPS/dmumps_struc.h /usr/local/include/dmumps_struc.h)))
+MPI_FLAGS ?= $(shell $(MPIFC) --showme:compile 2>/dev/null)
+MPI_LIBS ?= $(addprefix -l,dmumps mumps_common pord metis lapack blas) $(shell $(MPIFC) --showme:link 2>/dev/null)
+has-mpi := $(if $(HDF5_MODULES),$(if $(MUMPS_INCLUDE),$(if $(shell command -v $(MPIFC) 2>/dev/null),1)))
 Q := $(if $(V),,@)
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .DEFAULT_GOAL := all
-.PHONY: all no-hdf5 demo test test-unit test-programs bench-programs examples example-programs check-style doc deps venv gmsh debug \
+.PHONY: all no-hdf5 no-mpi demo test test-unit test-programs bench-programs examples example-programs check-style doc deps venv gmsh debug \
         sanitize fuzz collide bench bench-features bench-fclib report stability \
         install uninstall clean distclean help FORCE
 
@@ -38,10 +46,14 @@ light := demo test test-unit examples check-style doc deps venv gmsh debug sanit
          report stability install uninstall clean distclean help
 again = $(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: $(BIN) $(if $(wildcard src/hdf5/*.f90),$(if $(HDF5_MODULES),$(STORE_BIN) $(FCLIB_BIN),no-hdf5)) ## build bin/bipact, bin/bipact-hdf5, bin/bipact-fclib (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
+all: $(BIN) $(if $(wildcard src/hdf5/*.f90),$(if $(HDF5_MODULES),$(STORE_BIN) $(FCLIB_BIN),no-hdf5)) \
+     $(if $(wildcard src/mpi/*.f90),$(if $(has-mpi),$(MPI_BIN),no-mpi)) ## build bin/bipact and its companions bipact-hdf5, -fclib, -mpi (FLAVOUR=release|debug|sanitize, ARCH=native, WERROR=1, V=1)
 
 no-hdf5:
 	@echo 'bipact-hdf5 (fields, restarts) and bipact-fclib are left out: no HDF5 modules for Fortran; "make deps" installs them'
+
+no-mpi:
+	@echo 'bipact-mpi (several ranks) is left out: it needs MPI with its Fortran compiler, MUMPS and HDF5; "make deps" installs them'
 
 demo: ## install what is missing, build, run the two-bar impact and draw its figures
 	+@$(again) venv
@@ -184,6 +196,7 @@ sources := $(wildcard src/*/*.f90 src/*/*.F90) $(version)
 hdf5 := $(wildcard src/hdf5/*.f90)
 fclib := $(wildcard src/fclib/*.f90)
 store := $(wildcard src/store/*.f90)
+mpi := $(wildcard src/mpi/*.f90)
 support := $(wildcard tests/support/*.f90)
 units := $(wildcard tests/unit/test_*.f90)
 benches := $(wildcard bench/*.f90)
@@ -226,7 +239,8 @@ define compile
 @echo "  FC   $<"
 $(Q)$(FC) $(flags) $(if $(filter 1,$(WERROR)),-Werror) $(if $(filter $(small),$<),-fstack-arrays) \
   $(if $(filter $(threaded),$<),$(OPENMP)) \
-  $(if $(filter src/hdf5/% src/fclib/% src/store/%,$<),-I$(HDF5_MODULES)) -J$(B)/mod -c $< -o $@ \
+  $(if $(filter src/hdf5/% src/fclib/% src/store/% src/mpi/%,$<),-I$(HDF5_MODULES)) \
+  $(if $(filter src/mpi/%,$<),$(MPI_FLAGS) -I$(MUMPS_INCLUDE)) -J$(B)/mod -c $< -o $@ \
   2>$(@:.o=.log) || { cat $(@:.o=.log) >&2; exit 1; }; cat $(@:.o=.log) >&2
 endef
 
@@ -247,6 +261,13 @@ $(FCLIB_BIN) $(STORE_BIN):
 	@echo "  LINK $@"
 	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(OPENMP_LIBS) $(HDF5_LIBS) \
 	  || { echo 'Linking failed. If HDF5 was not found: run "make deps".' >&2; exit 1; }
+
+# The libraries of MPI and MUMPS are shared, and so is that of Fortran then.
+$(MPI_BIN): $(call object,$(mpi) $(filter-out %_main.f90,$(store)) $(hdf5)) $(LIB) $(B)/flags
+	@mkdir -p $(@D)
+	@echo "  LINK $@"
+	$(Q)$(FC) $(flags) $(filter-out -static-libgfortran,$(LDFLAGS)) -o $@ $(filter %.o %.a,$^) $(HDF5_LIBS) $(MPI_LIBS) $(OPENMP_LIBS) \
+	  || { echo 'Linking failed. If MPI or MUMPS was not found: run "make deps".' >&2; exit 1; }
 
 test-programs: $(programs)
 
@@ -277,7 +298,7 @@ $(SUPPORT): $(call object,$(support)) $(B)/deps.mk
 	$(Q)ar rcs $@ $(filter %.o,$^)
 
 # Made anew, also when only the list of sources (in deps.mk) changed: no stale member stays in it.
-$(LIB): $(call object,$(filter-out src/run/main.f90 $(hdf5) $(fclib) $(store),$(sources))) $(B)/deps.mk
+$(LIB): $(call object,$(filter-out src/run/main.f90 $(hdf5) $(fclib) $(store) $(mpi),$(sources))) $(B)/deps.mk
 	$(Q)rm -f $@
 	$(Q)ar rcs $@ $(filter %.o,$^)
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs what building and testing need, and only what is missing.
+# Installs what building and testing need, and only what is missing. MPI and MUMPS, for bipact-mpi,
+# are optional: where they cannot be had the build goes on without them.
 #   --dry-run   print what would be done
 # FC and PYTHON name other programs than gfortran and python3.
 set -u
@@ -34,14 +35,29 @@ look() {
     || missing="$missing python3 python3-venv"
 }
 
+# Sets `wanted` to those of the optional program bipact-mpi; NO_MPI=1 leaves it out.
+look_further() {
+  wanted=
+  [ -z "${NO_MPI:-}" ] || return
+  command -v mpifort >/dev/null 2>&1 && command -v mpirun >/dev/null 2>&1 \
+    || wanted="libopenmpi-dev openmpi-bin"
+  has_library dmumps || wanted="$wanted libmumps-dev"
+}
+
 cd "$(dirname "$0")/.." || exit 1
 look
-if [ -z "$missing" ]; then
+look_further
+if [ -z "$missing$wanted" ]; then
   [ -z "$dry_run" ] || echo "nothing to install"
   exit 0
 fi
 
+without_mpi() {
+  echo "bipact-mpi (several ranks) is left out, it needs: $wanted"
+}
+
 if ! command -v apt-get >/dev/null 2>&1; then
+  [ -n "$missing" ] || { without_mpi; exit 0; }
   echo "Missing (Debian package names):$missing"
   echo "bipact needs gfortran, make, LAPACK, BLAS, METIS and HDF5 (Fortran) with their headers,"
   echo "and python3 with venv. Please install them with the package manager of this system, then try again."
@@ -49,7 +65,8 @@ if ! command -v apt-get >/dev/null 2>&1; then
 fi
 
 if [ -n "$dry_run" ]; then
-  echo "would run: apt-get update && apt-get install -y$missing"
+  [ -z "$missing" ] || echo "would run: apt-get update && apt-get install -y$missing"
+  [ -z "$wanted" ] || echo "would run: apt-get update && apt-get install -y $wanted   # optional"
   exit 0
 fi
 
@@ -57,6 +74,9 @@ if [ "$(id -u)" = 0 ]; then
   as_root=
 elif sudo -n true 2>/dev/null; then
   as_root="sudo -n"
+elif [ -z "$missing" ]; then
+  without_mpi
+  exit 0
 else
   echo "Packages are missing and installing them needs root. Please run:"
   echo "  sudo apt-get update && sudo apt-get install -y$missing"
@@ -68,15 +88,21 @@ install() {
   apt="$as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300"
   $apt update    # may fail for a source that does not matter here
   # shellcheck disable=SC2086
-  $apt install -y --no-install-recommends $missing
+  $apt install -y --no-install-recommends $1
 }
 
-echo "installing:$missing"
 log=$(mktemp)
-if ! install >"$log" 2>&1; then
-  echo "the installation failed, trying once more"
-  sleep 5
-  install >"$log" 2>&1 || { cat "$log"; rm -f "$log"; exit 1; }
+if [ -n "$missing" ]; then
+  echo "installing:$missing"
+  if ! install "$missing" >"$log" 2>&1; then
+    echo "the installation failed, trying once more"
+    sleep 5
+    install "$missing" >"$log" 2>&1 || { cat "$log"; rm -f "$log"; exit 1; }
+  fi
+fi
+if [ -n "$wanted" ]; then
+  echo "installing for bipact-mpi: $wanted"
+  install "$wanted" >"$log" 2>&1 || without_mpi
 fi
 rm -f "$log"
 

@@ -52,6 +52,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 program bipact 'impact with friction between deformable bodies' 'bipact-fclib(1)'
 program bipact-hdf5
+program bipact-mpi
 program bipact-fclib 'solver of contact problems with friction' 'bipact(1)'
 
 cp scripts/completion.bash "$scratch/bipact"

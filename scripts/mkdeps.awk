@@ -10,7 +10,7 @@
 BEGIN {
   # Lowest first. A layer may use itself and all lower ones, unless `only` or `never` says less.
   n = split("base linalg cone hdf5 fclib deck material element solid model scene contact assembly time output run" \
-            " store", \
+            " store mpi", \
             order, " ")
   for (i = 1; i <= n; i++) rank[order[i]] = i
   only["cone"] = " base linalg "        # the contact solver is usable without the rest
@@ -22,6 +22,7 @@ BEGIN {
   main["src/run/main.f90"]
   main["src/fclib/fclib_main.f90"]
   main["src/store/store_main.f90"]
+  main["src/mpi/mpi_main.f90"]
   for (i = 1; i < ARGC; i++) register(ARGV[i])
 }
 
@@ -54,7 +55,7 @@ function register(path,   part, n, name, folder) {
 
 words == 2 && word[1] == "program" {
   if (layer[FILENAME] != "" && !(FILENAME in main))
-    fail(FILENAME ":" FNR, "a program belongs to src/run/main.f90, src/fclib/fclib_main.f90 or src/store/store_main.f90")
+    fail(FILENAME ":" FNR, "a program belongs to src/run/main.f90, src/fclib/fclib_main.f90, src/store/store_main.f90 or src/mpi/mpi_main.f90")
   program[FILENAME] = word[2]
 }
 
@@ -69,6 +70,7 @@ text ~ /^[ \t]*use([ \t]*,[ \t]*(non_)?intrinsic[ \t]*|[ \t]*)(::[ \t]*|[ \t])[a
   sub(/^[ \t]*use[ \t]*(,[ \t]*(non_)?intrinsic)?[ \t]*(::)?[ \t]*/, "", text)
   sub(/[^a-z0-9_].*/, "", text)
   if (text ~ /^(iso_c_binding|iso_fortran_env|ieee_.*|omp_lib|hdf5)$/) next
+  if (text == "mpi_f08" && layer[FILENAME] == "mpi") next
   if ((FILENAME, text) in line_of) next
   line_of[FILENAME, text] = FNR
   used[FILENAME] = used[FILENAME] " " text
@@ -83,8 +85,8 @@ function check_use(path, name,   where, from, to) {
   to = layer[source[name]]
   if (to == "") fail(where, "a source may not use " name " of the tests")
   else if (from == to) return
-  else if (to == "hdf5" && from != "fclib" && from != "store")
-    fail(where, "layer hdf5 is for fclib and store alone: bipact starts without the library")
+  else if (to == "hdf5" && from != "fclib" && from != "store" && from != "mpi")
+    fail(where, "layer hdf5 is for fclib, store and mpi alone: bipact starts without the library")
   else if (rank[to] > rank[from] || (from in only && !index(only[from], " " to " ")) \
            || (from in never && index(never[from], " " to " ")))
     fail(where, "layer " from " may not use " name " of layer " to)

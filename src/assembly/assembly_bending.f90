@@ -7,7 +7,8 @@ module assembly_bending
   use assembly_system, only: system_t
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
-  use element_bending, only: mode_amplitude, quad_mode_energy, pair_mode_energy, &
+  use element_bending, only: mode_amplitude, quad_mode_energy, energy_of_modes, &
+      pair_mode_energy, &
       bending_energy
   use model_data, only: model_t
   implicit none
@@ -208,8 +209,13 @@ contains
     call find_amplitude(model, model%mesh%nodes_of(e), u, x, a)
     associate (block => system%block(system%block_of(e)))
       if (block%is_rigid) return
-      call add_modes(quad_mode_energy(block%stiffness(:, :, e - block%first + 1), a), &
-          bending_energy(x, a, modulus), sums)
+      if (allocated(system%modes)) then
+        call add_modes(energy_of_modes(system%modes(:, e), a), &
+            bending_energy(x, a, modulus), sums)
+      else
+        call add_modes(quad_mode_energy(block%stiffness(:, :, e - block%first + 1), a), &
+            bending_energy(x, a, modulus), sums)
+      end if
     end associate
   end subroutine add_quadrilateral
 

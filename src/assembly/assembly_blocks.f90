@@ -19,7 +19,7 @@ module assembly_blocks
     real(wp), allocatable :: stiffness(:, :, :)
   end type element_block_t
 
-  public :: make_blocks, assemble_stiffness, whole_stiffness, largest_stiffness
+  public :: make_blocks, assemble_stiffness, find_stiffness, whole_stiffness, largest_stiffness
 
 contains
 
@@ -50,13 +50,17 @@ contains
     type(element_block_t), intent(inout) :: block(:)
     integer :: b
     do b = 1, size(block)
-      if (.not. block(b)%is_rigid) call block_stiffness(model, block(b))
+      if (.not. block(b)%is_rigid) call find_stiffness(model, block(b), 1, &
+          size(block(b)%node, 2), block(b)%stiffness)
     end do
   end subroutine assemble_stiffness
 
-  subroutine block_stiffness(model, block)
+  !> That of elements from..to of a block, its stiffness or a part of it.
+  subroutine find_stiffness(model, block, from, to, stiffness)
     type(model_t), intent(in) :: model
-    type(element_block_t), intent(inout) :: block
+    type(element_block_t), intent(in) :: block
+    integer, intent(in) :: from, to
+    real(wp), allocatable, intent(inout) :: stiffness(:, :, :)
     real(wp), allocatable :: ke(:, :), moduli(:, :)
     integer, allocatable :: dof(:)
     integer :: i, m, d
@@ -67,16 +71,17 @@ contains
     else
       dof = [(i, i=d + 1, m)]
     end if
-    allocate (ke(m, m), block%stiffness(size(dof), size(dof), size(block%node, 2)))
+    if (allocated(stiffness)) deallocate (stiffness)
+    allocate (ke(m, m), stiffness(size(dof), size(dof), to - from + 1))
     associate (part => model%part(block%part), &
         element => model%mesh%kind(block%type)%item)
       moduli = model%material(part%material)%item%moduli(part%plane)
-      do i = 1, size(block%node, 2)
+      do i = from, to
         call element%stiffness(model%x(:, block%node(:, i)), moduli, part%thickness, ke)
-        block%stiffness(:, :, i) = ke(dof, dof)
+        stiffness(:, :, i - from + 1) = ke(dof, dof)
       end do
     end associate
-  end subroutine block_stiffness
+  end subroutine find_stiffness
 
   !> factor * K of an element, from the rows and columns relative to node 1: those of node 1 are
   !> minus the sums of the others.

@@ -4,7 +4,7 @@
 !> step uses (of its type, with massless nodes where it has them), so a coefficient that all
 !> parts share gives a M.
 module assembly_damping
-  use assembly_forces, only: subtract_element_forces
+  use assembly_forces, only: subtract_weighted_forces
   use assembly_mass, only: assemble_mass
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero
@@ -56,9 +56,15 @@ contains
         call subtract_row(system, i, factor, v, f(:, i))
       end do
     end if
-    do i = 1, size(system%damping%element)
-      call subtract_one_element(system, i, factor, v, f)
-    end do
+    associate (c => system%damping)
+      if (associated(system%team)) then
+        call subtract_weighted_forces(system, c%element, factor*c%coefficient, v, f)
+        return
+      end if
+      do i = 1, size(c%element)
+        call subtract_weighted_forces(system, c%element(i:i), [factor*c%coefficient(i)], v, f)
+      end do
+    end associate
   end subroutine subtract_damping_force
 
   !> The part by mass in some rows, each as SUBTRACT_DAMPING_FORCE has it.
@@ -83,21 +89,18 @@ contains
     real(wp), intent(in) :: v(:, :)
     real(wp), intent(inout) :: f(:, :)
     integer :: k
-    do k = 1, size(chosen)
-      call subtract_one_element(system, chosen(k), factor, v, f)
-    end do
-  end subroutine subtract_stiffness_damping
-
-  subroutine subtract_one_element(system, k, factor, v, f)
-    type(system_t), intent(in) :: system
-    integer, intent(in) :: k
-    real(wp), intent(in) :: factor
-    real(wp), intent(in) :: v(:, :)
-    real(wp), intent(inout) :: f(:, :)
     associate (c => system%damping)
-      call subtract_element_forces(system, c%element(k:k), factor*c%coefficient(k), v, f)
+      if (associated(system%team)) then
+        call subtract_weighted_forces(system, c%element(chosen), &
+            factor*c%coefficient(chosen), v, f)
+        return
+      end if
+      do k = 1, size(chosen)
+        call subtract_weighted_forces(system, c%element(chosen(k):chosen(k)), &
+            [factor*c%coefficient(chosen(k))], v, f)
+      end do
     end associate
-  end subroutine subtract_one_element
+  end subroutine subtract_stiffness_damping
 
   !> f of node i = f - factor * (row of the part by mass) v.
   pure subroutine subtract_row(system, i, factor, v, f)

@@ -15,8 +15,8 @@ module assembly_forces
   implicit none
   private
   public :: subtract_internal_force, subtract_layer_force, subtract_element_forces, &
-      layer_product, strain_energies, &
-      strain_product, element_product, add_loads
+      subtract_weighted_forces, layer_product, strain_energies, block_products, &
+      strain_product, element_product, element_products, add_loads
 
 contains
 
@@ -28,6 +28,10 @@ contains
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
     integer :: b
+    if (associated(system%team)) then
+      call system%team%subtract_forces(factor, u, f)
+      return
+    end if
     if (allocated(system%solid)) then
       call subtract_solid_force(system%solid, system%threads, &
           force_rule_t(before=one, now=zero), factor, u, u, f)
@@ -56,14 +60,31 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
+    call subtract_weighted_forces(system, elements, [factor], u, f)
+  end subroutine subtract_element_forces
+
+  !> f = f - weight(k) * K u of element elements(k), one after the other; weight (1) if it is
+  !> the same of all; u, f (dim, n).
+  subroutine subtract_weighted_forces(system, elements, weight, u, f)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: elements(:)
+    real(wp), intent(in) :: weight(:)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: f(:, :)
     integer :: k
+    if (size(elements) == 0) return
+    if (associated(system%team)) then
+      call system%team%subtract_chosen(system%block, system%block_of, elements, weight, u, f)
+      return
+    end if
     do k = 1, size(elements)
       associate (block => system%block(system%block_of(elements(k))))
         if (block%is_rigid) cycle
-        call subtract_block(system, block, elements(k) - block%first + 1, 1, factor, u, f)
+        call subtract_block(system, block, elements(k) - block%first + 1, 1, &
+            weight(min(k, size(weight))), u, f)
       end associate
     end do
-  end subroutine subtract_element_forces
+  end subroutine subtract_weighted_forces
 
   !> The same of n elements of a block from the one at `from`, by the kernel of its type.
   subroutine subtract_block(system, block, from, n, factor, u, f)
@@ -171,13 +192,17 @@ contains
   end subroutine multiply
 
   !> Strain energy of each part [F L]; part(e) is the row of element e.
-  pure subroutine strain_energies(system, part, u, energy)
+  subroutine strain_energies(system, part, u, energy)
     type(system_t), intent(in) :: system
     integer, intent(in) :: part(:)
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(out) :: energy(:)
     integer :: b
     energy = zero
+    if (associated(system%team)) then
+      call add_shared_energies(system, part, u, energy)
+      return
+    end if
     do b = 1, size(system%block)
       associate (own => energy(part(system%block(b)%first)))
         if (allocated(system%solid)) then
@@ -189,17 +214,51 @@ contains
     end do
   end subroutine strain_energies
 
+  subroutine add_shared_energies(system, part, u, energy)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: part(:)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(inout) :: energy(:)
+    real(wp) :: total(size(system%block))
+    integer :: b
+    call system%team%block_products(u, total)
+    do b = 1, size(total)
+      associate (own => energy(part(system%block(b)%first)))
+        own = own + half*total(b)
+      end associate
+    end do
+  end subroutine add_shared_energies
+
   !> u.K u over all elements [F L]; 0 at finite deformation, which has no K.
-  pure real(wp) function strain_product(system, u)
+  real(wp) function strain_product(system, u)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: u(:, :)
+    real(wp) :: total(1)
     integer :: b
     strain_product = zero
     if (allocated(system%solid)) return
+    if (associated(system%team)) then
+      total = zero
+      call add_shared_energies(system, [(1, b=1, size(system%block_of))], u, total)
+      strain_product = 2.0_wp*total(1)
+      return
+    end if
     do b = 1, size(system%block)
       call add_products(system, system%block(b), one, u, strain_product)
     end do
   end function strain_product
+
+  !> u.K u of each block [F L].
+  subroutine block_products(system, u, total)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(out) :: total(:)
+    integer :: b
+    total = zero
+    do b = 1, size(system%block)
+      call add_products(system, system%block(b), one, u, total(b))
+    end do
+  end subroutine block_products
 
   !> total = total + factor * u.K u of each element of a block [F L].
   pure subroutine add_products(system, block, factor, u, total)
@@ -227,21 +286,55 @@ contains
   end subroutine add_products
 
   !> u.C u [F L].
-  pure real(wp) function layer_product(system, u)
+  real(wp) function layer_product(system, u)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: u(:, :)
     integer :: k
     layer_product = zero
+    if (associated(system%team)) then
+      layer_product = shared_layer_product(system, u)
+      return
+    end if
     do k = 1, size(system%massless_layer)
       layer_product = layer_product + element_product(system, system%massless_layer(k), u)
     end do
   end function layer_product
 
+  real(wp) function shared_layer_product(system, u)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: u(:, :)
+    real(wp) :: value(size(system%massless_layer))
+    call element_products(system, system%massless_layer, u, value)
+    shared_layer_product = sum(value)
+  end function shared_layer_product
+
+  !> u.K u of some elements, as ELEMENT_PRODUCT has it [F L].
+  subroutine element_products(system, elements, u, value)
+    type(system_t), intent(in) :: system
+    integer, intent(in) :: elements(:)
+    real(wp), intent(in) :: u(:, :)
+    real(wp), intent(out) :: value(:)
+    integer :: k
+    if (associated(system%team)) then
+      call system%team%chosen_products(system%block, system%block_of, elements, u, value)
+      return
+    end if
+    do k = 1, size(elements)
+      value(k) = element_product(system, elements(k), u)
+    end do
+  end subroutine element_products
+
   !> u.K u of element e, at finite deformation twice its strain energy [F L].
-  pure real(wp) function element_product(system, e, u)
+  real(wp) function element_product(system, e, u)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     real(wp), intent(in) :: u(:, :)
+    real(wp) :: value(1)
+    if (associated(system%team)) then
+      call system%team%chosen_products(system%block, system%block_of, [e], u, value)
+      element_product = value(1)
+      return
+    end if
     if (allocated(system%solid)) then
       associate (solid => system%solid(system%block_of(e)))
         element_product = zero

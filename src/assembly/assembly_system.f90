@@ -3,14 +3,16 @@
 !> a time scheme, A = cM M + cC C + cL L + cK K, with C the damping of the deck and L = K of the
 !> elements that hold massless nodes.
 module assembly_system
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
   use assembly_blocks, only: element_block_t, make_blocks, assemble_stiffness, &
       whole_stiffness, largest_stiffness
+  use assembly_entries, only: element_cliques, elements_at, set_one, clear_held, &
+      diagonal_product
   use assembly_mass, only: assemble_mass, redistribution_targets
   use assembly_ring, only: whole_ring_stiffness
   use assembly_solid, only: make_solids, add_solid_tangents
+  use assembly_team, only: team_t
   use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques, scalar_product, &
       scalar_products, scalar_rows
   use model_data, only: model_t
@@ -52,20 +54,26 @@ module assembly_system
     logical, allocatable :: fixed(:, :)
     logical :: any_fixed = .false.
     integer, allocatable :: fixed_list(:, :)
+    !> Only where several ranks share the elements: theirs is the stiffness of the blocks
+    class(team_t), pointer :: team => null()
+    real(wp), allocatable :: modes(:, :)   !< then, in the plane: (3, elements) quad_mode_moduli
   end type system_t
 
   public :: make_system, effective_matrix, diagonal_matrix, multiply_mass, mass_products, &
-      add_mass_rows, constrain, clear_fixed, set_fixed, list_dofs, stiffness_ratio
+      add_mass_rows, constrain, clear_fixed, set_fixed, list_dofs, stiffness_ratio, &
+      largest_of_elements, add_stiffness
 
 contains
 
   !> Graph, mass and stiffness of a model; massless(:) = contact nodes whose mass goes to their
   !> inner neighbours (empty without REDIST). Fails when such a node has no inner neighbour.
-  subroutine make_system(model, massless, system, status)
+  !> The elements are shared by a team, where there is one (but for finite deformation).
+  subroutine make_system(model, massless, system, status, team)
     type(model_t), intent(in) :: model
     integer, intent(in) :: massless(:)
     type(system_t), intent(out) :: system
     type(status_t), intent(inout) :: status
+    class(team_t), pointer, intent(in), optional :: team
     integer, allocatable :: first(:), target(:), clique_first(:), clique(:)
     integer :: k
     system%n = model%nodes
@@ -89,8 +97,13 @@ contains
       call make_solids(model, system%block, system%solid)
       allocate (system%massless_layer(0))
     else
-      call assemble_stiffness(model, system%block)
-      call find_layer(model, massless, system)
+      if (present(team)) system%team => team
+      if (associated(system%team)) then
+        call system%team%share(model, system%graph, system%block, system%modes, status)
+      else
+        call assemble_stiffness(model, system%block)
+      end if
+      system%massless_layer = elements_at(model, massless)
     end if
     if (allocated(model%mass_damping) .or. allocated(model%stiffness_damping)) &
         call make_damping(model, first, target, system)
@@ -117,19 +130,6 @@ contains
     end do
   end subroutine add_bodies
 
-  !> Elements that hold a massless node.
-  pure subroutine find_layer(model, massless, system)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: massless(:)
-    type(system_t), intent(inout) :: system
-    logical :: is_massless(model%nodes)
-    integer :: e
-    is_massless = .false.
-    is_massless(massless) = .true.
-    system%massless_layer = pack([(e, e=1, model%mesh%n)], &
-        [(any(is_massless(model%mesh%nodes_of(e))), e=1, model%mesh%n)])
-  end subroutine find_layer
-
   !> Damping: the elements by stiffness, room for that by mass, whose coefficients may change
   !> (set_mass_damping).
   pure subroutine make_damping(model, first, target, system)
@@ -152,35 +152,6 @@ contains
     end associate
   end subroutine make_damping
 
-  !> Each element's nodes together with the nodes that take over their mass.
-  pure subroutine element_cliques(model, first, target, clique_first, clique)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: first(:), target(:)
-    integer, allocatable, intent(out) :: clique_first(:), clique(:)
-    integer :: e, k, i, m, pass
-    allocate (clique_first(model%mesh%n + 1))
-    do pass = 1, 2
-      m = 0
-      do e = 1, model%mesh%n
-        clique_first(e) = m + 1
-        if (model%part(model%mesh%part(e))%is_rigid) cycle
-        do k = 1, model%mesh%count_of(e)
-          i = model%mesh%node_of(k, e)
-          m = m + 1
-          if (pass == 2) clique(m) = i
-          if (first(i + 1) - first(i) == 1) then
-            if (target(first(i)) == i) cycle
-          end if
-          if (pass == 2) &
-              clique(m + 1:m + first(i + 1) - first(i)) = target(first(i):first(i + 1) - 1)
-          m = m + first(i + 1) - first(i)
-        end do
-      end do
-      clique_first(model%mesh%n + 1) = m + 1
-      if (pass == 1) allocate (clique(m))
-    end do
-  end subroutine element_cliques
-
   pure subroutine row_sums(system)
     type(system_t), intent(inout) :: system
     integer :: i, k
@@ -198,12 +169,18 @@ contains
   !> A = cM M + cC C + cL L + cK K in 2 x 2 blocks; rows and columns of fixed dofs keep their
   !> diagonal only (1 where they have no mass), so that a right-hand side of zero there gives a
   !> displacement of zero.
-  subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix, u0, x)
+  !> shift (n) is added to the diagonal of each node. What a team shares is its diagonal here.
+  subroutine effective_matrix(system, c_m, c_c, c_layer, c_k, matrix, u0, x, shift)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_c, c_layer, c_k
     type(block_matrix_t), intent(inout) :: matrix
-    real(wp), intent(in), optional :: u0(:, :), x(:, :)
+    real(wp), intent(in), optional :: u0(:, :), x(:, :), shift(:)
     integer :: e, i, k, d
+    if (associated(system%team) .and. any(abs([c_c, c_layer, c_k]) > zero)) then
+      call share_matrix(system, c_m, c_c, c_layer, c_k, matrix, shift)
+      return
+    end if
+    if (allocated(matrix%diagonal)) deallocate (matrix%diagonal)
     if (.not. allocated(matrix%value)) allocate (matrix%value(system%dim, system%dim, &
         size(system%graph%column)))
     matrix%value = zero
@@ -228,20 +205,85 @@ contains
       end do
     end do
     call fill_idle(system, matrix)
-    if (.not. system%any_fixed) return
-    do i = 1, system%n
-      do k = system%graph%first(i), system%graph%first(i + 1) - 1
-        call clear_block(system%fixed(:, i), system%fixed(:, system%graph%column(k)), &
-            system%graph%column(k) == i, matrix%value(:, :, k))
+    if (system%any_fixed) then
+      call clear_held(system%graph, system%fixed, matrix)
+      do i = 1, size(system%massless_body)
+        k = system%graph%position(system%massless_body(i), system%massless_body(i))
+        do d = 1, system%dim
+          matrix%value(d, d, k) = one
+        end do
       end do
-    end do
-    do i = 1, size(system%massless_body)
-      k = system%graph%position(system%massless_body(i), system%massless_body(i))
+    end if
+    if (.not. present(shift)) return
+    do i = 1, system%n
+      k = system%graph%position(i, i)
       do d = 1, system%dim
-        matrix%value(d, d, k) = one
+        matrix%value(d, d, k) = matrix%value(d, d, k) + shift(i)
       end do
     end do
   end subroutine effective_matrix
+
+  !> The same of elements that a team shares: matrix has the diagonal, the ranks have the rest.
+  subroutine share_matrix(system, c_m, c_c, c_layer, c_k, matrix, shift)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: c_m, c_c, c_layer, c_k
+    type(block_matrix_t), intent(inout) :: matrix
+    real(wp), intent(in), optional :: shift(:)
+    real(wp), allocatable :: at(:, :), weight(:)
+    integer :: i, k
+    logical :: by_mass
+    by_mass = .false.
+    if (allocated(system%damping)) by_mass = allocated(system%damping%mass)
+    allocate (at(merge(system%dim, 1, by_mass), size(system%mass)))
+    do k = 1, size(system%mass)
+      at(:, k) = c_m*system%mass(k)
+    end do
+    if (by_mass) then
+      do i = 1, size(system%damping%mass, 2)
+        k = i
+        if (system%mass_is_diagonal) k = system%graph%position(i, i)
+        at(:, k) = at(:, k) + c_c*system%damping%mass(:, i)
+      end do
+    end if
+    if (present(shift)) then
+      do i = 1, system%n
+        k = system%graph%position(i, i)
+        at(:, k) = at(:, k) + shift(i)
+      end do
+    end if
+    weight = [c_k]
+    if (size(system%massless_layer) > 0 .or. allocated(system%damping)) &
+        weight = element_weights(system, c_c, c_layer, c_k)
+    call set_idle(system, at)
+    if (allocated(matrix%value)) deallocate (matrix%value)
+    if (.not. allocated(matrix%diagonal)) allocate (matrix%diagonal(system%dim, system%n))
+    call system%team%assemble(system%graph, weight, at, system%fixed, matrix%diagonal)
+  end subroutine share_matrix
+
+  !> What the stiffness of each element counts in the effective matrix.
+  pure function element_weights(system, c_c, c_layer, c_k) result(weight)
+    type(system_t), intent(in) :: system
+    real(wp), intent(in) :: c_c, c_layer, c_k
+    real(wp) :: weight(size(system%block_of))
+    weight = c_k
+    weight(system%massless_layer) = weight(system%massless_layer) + c_layer
+    if (.not. allocated(system%damping)) return
+    associate (c => system%damping)
+      weight(c%element) = weight(c%element) + c_c*c%coefficient
+    end associate
+  end function element_weights
+
+  !> Ones for nodes without an entry, which no element that is strained has.
+  pure subroutine set_idle(system, at)
+    type(system_t), intent(in) :: system
+    real(wp), intent(inout) :: at(:, :)
+    integer :: i, k
+    do i = 1, system%n
+      k = system%graph%first(i)
+      if (system%graph%first(i + 1) - k > 1) cycle
+      if (.not. abs(at(1, k)) > zero .or. any(system%massless_body == i)) at(:, k) = one
+    end do
+  end subroutine set_idle
 
   !> Ones on the diagonal of nodes that follow, and of held dofs without an entry (of rigid
   !> meshes in statics): no zero pivot, and no motion where there is no force.
@@ -252,30 +294,15 @@ contains
     if (allocated(system%idle)) then
       do k = 1, size(system%idle)
         do d = 1, system%dim
-          call set_one(system, d, system%idle(k), matrix)
+          call set_one(system%graph, d, system%idle(k), matrix)
         end do
       end do
     end if
     if (.not. system%any_fixed) return
     do k = 1, size(system%fixed_list, 2)
-      call set_one(system, system%fixed_list(1, k), system%fixed_list(2, k), matrix)
+      call set_one(system%graph, system%fixed_list(1, k), system%fixed_list(2, k), matrix)
     end do
   end subroutine fill_idle
-
-  pure subroutine set_one(system, direction, node, matrix)
-    type(system_t), intent(in) :: system
-    integer, intent(in) :: direction, node
-    type(block_matrix_t), intent(inout) :: matrix
-    integer :: k
-    if (ieee_is_nan(matrix%diagonal_entry(system%graph, direction, node))) return
-    if (abs(matrix%diagonal_entry(system%graph, direction, node)) > zero) return
-    if (allocated(matrix%diagonal)) then
-      matrix%diagonal(direction, node) = one
-    else
-      k = system%graph%position(node, node)
-      matrix%value(direction, direction, k) = one
-    end if
-  end subroutine set_one
 
   !> matrix = matrix + factor * C.
   pure subroutine add_damping(system, factor, matrix)
@@ -312,17 +339,6 @@ contains
     call fill_idle(system, matrix)
   end subroutine diagonal_matrix
 
-  pure subroutine clear_block(row, column, diagonal, block)
-    logical, intent(in) :: row(:), column(:), diagonal
-    real(wp), intent(inout) :: block(:, :)
-    integer :: a, b
-    do b = 1, size(column)
-      do a = 1, size(row)
-        if ((row(a) .or. column(b)) .and. .not. (diagonal .and. a == b)) block(a, b) = zero
-      end do
-    end do
-  end subroutine clear_block
-
   !> matrix = matrix + factor * K of element e.
   pure subroutine add_stiffness(system, e, factor, matrix)
     type(system_t), intent(in) :: system
@@ -353,7 +369,7 @@ contains
   end subroutine add_stiffness
 
   !> Largest diagonal of cK K over the largest of cM M; 0 where no node of an element has mass.
-  pure real(wp) function stiffness_ratio(system, c_m, c_k)
+  real(wp) function stiffness_ratio(system, c_m, c_k)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: c_m, c_k
     integer :: b
@@ -364,8 +380,18 @@ contains
           [size(system%block(b)%node)]))))
     end do
     stiffness_ratio = zero
-    if (heaviest > zero) stiffness_ratio = largest_stiffness(system%block)*c_k/(c_m*heaviest)
+    if (heaviest > zero) stiffness_ratio = largest_of_elements(system)*c_k/(c_m*heaviest)
   end function stiffness_ratio
+
+  !> Largest entry on a diagonal of element stiffness [F/L].
+  real(wp) function largest_of_elements(system)
+    type(system_t), intent(in) :: system
+    if (associated(system%team)) then
+      largest_of_elements = system%team%largest_stiffness()
+    else
+      largest_of_elements = largest_stiffness(system%block)
+    end if
+  end function largest_of_elements
 
   !> y = y + factor * M x.
   subroutine multiply_mass(system, factor, x, y)
@@ -380,18 +406,6 @@ contains
           system%mass, factor, x, y)
     end if
   end subroutine multiply_mass
-
-  pure subroutine diagonal_product(dim, n, mass, factor, x, y)
-    integer, intent(in) :: dim, n
-    real(wp), intent(in) :: mass(n), factor, x(dim, n)
-    real(wp), intent(inout) :: y(dim, n)
-    integer :: d, i
-    do i = 1, n
-      do d = 1, dim
-        y(d, i) = y(d, i) + factor*mass(i)*x(d, i)
-      end do
-    end do
-  end subroutine diagonal_product
 
   !> p = M x and q = M y, all (dim, n), for little more than one of them.
   subroutine mass_products(system, x, y, p, q)

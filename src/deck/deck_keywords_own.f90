@@ -7,7 +7,7 @@ module deck_keywords_own
   use deck_schemes, only: schemes
   use deck_table, only: table_t, add_keyword, add_card, add_field
   use linalg_order, only: order_names
-  use linalg_registry, only: engine_names
+  use linalg_registry, only: engine_names, engine_ranks
   use linalg_solver, only: name_length
   implicit none
   private
@@ -79,7 +79,8 @@ contains
     call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'ENGINE', 'W10 =AUTO '// &
-        choices([character(name_length) :: 'AUTO', engines]), 'factor')
+        choices([character(name_length) :: 'AUTO', engines, engine_ranks]), &
+        'factor; MUMPS: of bipact-mpi')
     call add_field(table, 'ORDER', 'W10 =AUTO '// &
         choices([character(name_length) :: 'AUTO', order_names]), &
         'elimination order; AUTO: fewest flops')

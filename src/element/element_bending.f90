@@ -6,7 +6,8 @@ module element_bending
   use base_kinds, only: wp, half
   implicit none
   private
-  public :: mode_amplitude, quad_mode_energy, pair_mode_energy, bending_energy
+  public :: mode_amplitude, quad_mode_energy, quad_mode_moduli, &
+      energy_of_modes, pair_mode_energy, bending_energy
 
 contains
 
@@ -29,10 +30,23 @@ contains
   !> is k [F/L].
   pure real(wp) function quad_mode_energy(k, a)
     real(wp), intent(in) :: k(6, 6), a(2)
-    quad_mode_energy = 2.0_wp*(a(1)**2*(k(1, 1) + 2.0_wp*k(1, 5) + k(5, 5)) &
-        + a(2)**2*(k(2, 2) + 2.0_wp*k(2, 6) + k(6, 6)) &
-        + 2.0_wp*a(1)*a(2)*(k(1, 2) + k(1, 6) + k(5, 2) + k(5, 6)))
+    quad_mode_energy = energy_of_modes(quad_mode_moduli(k), a)
   end function quad_mode_energy
+
+  !> What of its stiffness the modes feel: of both directions, and between them [F/L].
+  pure function quad_mode_moduli(k) result(m)
+    real(wp), intent(in) :: k(6, 6)
+    real(wp) :: m(3)
+    m(1) = k(1, 1) + 2.0_wp*k(1, 5) + k(5, 5)
+    m(2) = k(2, 2) + 2.0_wp*k(2, 6) + k(6, 6)
+    m(3) = k(1, 2) + k(1, 6) + k(5, 2) + k(5, 6)
+  end function quad_mode_moduli
+
+  !> Energy [F L] of amplitude a from quad_mode_moduli.
+  pure real(wp) function energy_of_modes(m, a)
+    real(wp), intent(in) :: m(3), a(2)
+    energy_of_modes = 2.0_wp*(a(1)**2*m(1) + a(2)**2*m(2) + 2.0_wp*a(1)*a(2)*m(3))
+  end function energy_of_modes
 
   !> Energy [F L] of amplitude a in two triangles that share the edge between the
   !> second and the fourth node: that of the jump of their strains. pressure, shear: moduli

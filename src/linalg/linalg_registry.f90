@@ -16,6 +16,8 @@ module linalg_registry
 
   !> The engine of diagonal matrices, which takes no other: chosen by what makes the matrix.
   character(*), parameter, public :: engine_diagonal = 'DIAGONAL'
+  !> The engine of several ranks, which bin/bipact-mpi alone has.
+  character(*), parameter, public :: engine_ranks = 'MUMPS'
 
 contains
 
@@ -28,13 +30,16 @@ contains
     call find_engine(options%engine, names, solver)
     if (allocated(solver)) then
       solver%options = options
+    else if (options%engine == engine_ranks) then
+      call fail(status, status_deck, 'solver engine "'//engine_ranks//'" is not in this '// &
+          'program', hint='run bin/bipact-mpi, which has it, or choose ENGINE AUTO')
     else
       call fail(status, status_deck, 'solver engine "'//trim(options%engine)// &
           '" is not available', hint='choose one of AUTO, '//join(names, ', '))
     end if
   end subroutine make_solver
 
-  !> The names of all engines.
+  !> The names of all engines that this program has.
   subroutine engine_names(names)
     character(name_length), allocatable, intent(out) :: names(:)
     class(solver_t), allocatable :: none

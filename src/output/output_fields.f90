@@ -2,7 +2,7 @@
 !> The fields of a frame: which nodes and elements, and their values from the state of the run.
 module output_fields
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use assembly_forces, only: element_product
+  use assembly_forces, only: element_products
   use assembly_system, only: system_t
   use base_kinds, only: wp, zero, half, one
   use contact_pairing, only: no_gap
@@ -206,7 +206,7 @@ contains
     type(state_t), intent(in) :: state
     type(contact_t), intent(in) :: contact
     type(fields_t), intent(inout) :: fields
-    integer :: k, i
+    integer :: k
     do k = 1, size(fields%field)
       associate (values => fields%field(k)%values)
         select case (fields%field(k)%name)
@@ -228,9 +228,8 @@ contains
         case ('STRETCH', 'PLASTIC')
           call fill_finite(system, fields%cell, state%u, fields%field(k)%name, values)
         case ('ENERGY')
-          do i = 1, size(fields%cell)
-            values(1, i) = half*element_product(system, fields%cell(i), state%u)
-          end do
+          call element_products(system, fields%cell, state%u, values(1, :))
+          values(1, :) = half*values(1, :)
         end select
       end associate
     end do

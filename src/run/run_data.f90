@@ -5,6 +5,7 @@ module run_data
   use assembly_bending, only: bending_t
   use assembly_part, only: part_t
   use assembly_system, only: system_t
+  use assembly_team, only: team_t
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, i8
   use base_messages, only: messages_t
@@ -230,6 +231,7 @@ module run_data
     integer :: first_warned(warning_kinds) = -1
     real(wp) :: first_time(warning_kinds) = zero
     type(moved_node_t), allocatable :: moved(:)  !< onto obstacles, before the start
+    class(team_t), pointer :: team => null()   !< ranks that share the work, if there are any
     logical :: quiet = .false.
     integer :: log_unit = -1
   end type run_t

@@ -56,7 +56,12 @@ contains
     type(status_t), intent(inout) :: status
     type(solver_options_t) :: options
     options = run%solver_options
-    if (has_diagonal_matrix(run, stage)) options%engine = engine_diagonal
+    if (has_diagonal_matrix(run, stage)) then
+      options%engine = engine_diagonal
+    else if (associated(run%team)) then
+      call run%team%make_solver(options, solver)
+      return
+    end if
     call make_solver(options, solver, status)
   end subroutine make_engine
 
@@ -189,6 +194,13 @@ contains
     call analyse_matrix(run, status)
   end subroutine size_factor
 
+  !> Are all entries of a matrix numbers?
+  pure logical function is_finite(matrix)
+    type(block_matrix_t), intent(in) :: matrix
+    is_finite = .true.
+    if (allocated(matrix%value)) is_finite = all(ieee_is_finite(matrix%value))
+  end function is_finite
+
   !> The effective matrix of a stage as the run stands.
   subroutine assemble_stage(run, number, status)
     type(run_t), intent(inout) :: run
@@ -199,16 +211,15 @@ contains
         call diagonal_matrix(run%system, stage%c_m, run%matrix)
       else if (allocated(run%newton)) then
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
-            run%matrix, run%state%u, run%x)
-        if (.not. all(ieee_is_finite(run%matrix%value))) call fail(status, status_numerical, &
+            run%matrix, run%state%u, run%x, shift=run%shift)
+        if (.not. is_finite(run%matrix)) call fail(status, status_numerical, &
             'the tangent is not finite (NaN or Inf)', hint='take a smaller step')
         if (failed(status)) return
       else
         call effective_matrix(run%system, stage%c_m, stage%c_c, stage%c_layer, stage%c_k, &
-            run%matrix)
+            run%matrix, shift=run%shift)
       end if
     end associate
-    if (allocated(run%shift)) call shift_matrix(run)
   end subroutine assemble_stage
 
   subroutine factor_stage(run, number, again, status)
@@ -278,6 +289,7 @@ contains
     real(wp), parameter :: much_work = 0.1_wp    ! Gflop
     call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
     options = run%solver_options
+    if (associated(run%team)) return
     if (failed(status) .or. options%engine /= 'AUTO' .or. run%solver%takes_diagonal .or. &
         options%null_pivot > zero .or. run%solver%info%engine /= 'LDLT') return
     if (work_of(run%solver) < much_work) return
@@ -351,16 +363,5 @@ contains
     end if
     call schur_inverse%set_one_body(m)
   end subroutine size_one_body
-
-  subroutine shift_matrix(run)
-    type(run_t), intent(inout) :: run
-    integer :: i, k, d
-    do i = 1, run%system%n
-      k = run%system%graph%position(i, i)
-      do d = 1, run%system%dim
-        run%matrix%value(d, d, k) = run%matrix%value(d, d, k) + run%shift(i)
-      end do
-    end do
-  end subroutine shift_matrix
 
 end module run_operator

@@ -5,12 +5,14 @@
 !> restart files.
 module run_program
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use assembly_team, only: team_t
   use base_files, only: file_exists, file_size, remove_file
   use base_kinds, only: i8
+  use base_messages, only: add_message
   use base_signal, only: watch_limits, watch_signals
   use base_status, only: status_t, fail, failed, status_text, status_stopped, &
       status_numerical, status_file, status_deck
-  use base_strings, only: stem_of, join_path, upper
+  use base_strings, only: stem_of, join_path, upper, to_text
   use base_system, only: make_folder, leave, exec_hdf5_program
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
@@ -18,6 +20,7 @@ module run_program
   use deck_keywords, only: fill_table, complete_table
   use deck_match, only: match_name
   use deck_table, only: table_t, find_nearest
+  use linalg_registry, only: engine_ranks
   use output_storage, only: storage_t
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
@@ -39,15 +42,17 @@ contains
 
   !> Does what the command line asks for and leaves with the exit code. storage, where
   !> allocated, keeps fields and restart files; a program without it becomes the one that has it
-  !> when a scene asks for them.
-  subroutine run_deck(storage)
+  !> when a scene asks for them. team: ranks that share the work of steps.
+  subroutine run_deck(storage, team)
     class(storage_t), allocatable, intent(inout) :: storage
+    class(team_t), target, intent(inout), optional :: team
     type(arguments_t) :: arguments
     type(run_t), allocatable, target :: run
     type(status_t) :: status
     call watch_limits()
     allocate (run)
     call move_alloc(storage, run%storage)
+    if (present(team)) run%team => team
     call run%timers%start()
     call read_arguments(arguments, status)
     if (failed(status)) then
@@ -65,6 +70,7 @@ contains
     end if
     if (failed(status)) write (error_unit, '(a)') 'bipact: '//status_text(status)
     deallocate (run)
+    if (present(team)) call team%dismiss(status%code)
     call leave(status%code)
   end subroutine run_deck
 
@@ -110,6 +116,8 @@ contains
     end do
     if (failed(status)) return
     call show_warnings(run%warnings)
+    call choose_team(run, arguments%plan, status)
+    if (failed(status)) return
     if (arguments%plan) call size_solver(run, status)
     if (arguments%plan .or. arguments%check) then
       call tell_scene(arguments, run)
@@ -127,6 +135,28 @@ contains
     end if
     call compute(arguments, run, status)
   end subroutine work
+
+  !> The ranks work where the deck leaves the solver to them; where there is one, it works as
+  !> the serial program does.
+  subroutine choose_team(run, is_plan, status)
+    type(run_t), intent(inout) :: run
+    logical, intent(in) :: is_plan
+    type(status_t), intent(inout) :: status
+    logical :: is_asked
+    is_asked = run%solver_options%engine == engine_ranks
+    if (is_plan) nullify (run%team)
+    if (is_asked .and. is_plan) run%solver_options%engine = 'AUTO'
+    if (is_asked .or. .not. associated(run%team)) return
+    if (run%team%ranks > 1 .and. run%solver_options%engine == 'AUTO') then
+      call add_message(run%notes, '', to_text(run%team%ranks)//' ranks share elements and '// &
+          'factor; they add in another order each time, so that runs agree to round-off')
+      return
+    end if
+    if (run%team%ranks > 1) call add_message(run%notes, '', 'ENGINE '// &
+        trim(run%solver_options%engine)//' works on one rank; the other '// &
+        to_text(run%team%ranks - 1)//' wait')
+    nullify (run%team)
+  end subroutine choose_team
 
   !> What the deck says, without running it; warnings have gone to the screen.
   subroutine tell_scene(arguments, run)

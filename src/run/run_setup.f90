@@ -100,7 +100,7 @@ contains
     else
       allocate (run%contact%interface_node(0), run%contact%pairing(0), run%contact%rows)
     end if
-    call make_system(run%model, massless, run%system, status)
+    call make_system(run%model, massless, run%system, status, run%team)
     run%system%threads = run%solver_options%threads
     if (allocated(run%moved)) call tell_moved(run, status)
     if (run%plan%contact .and. .not. failed(status)) call find_contact_bodies(run)

@@ -5,8 +5,7 @@
 !> until eps M (x_k+1 - x_k), the residual of equilibrium, is small: the limit has no trace of
 !> eps. Where there is no equilibrium, the same move comes again and again.
 module run_static
-  use assembly_blocks, only: largest_stiffness
-  use assembly_system, only: system_t
+  use assembly_system, only: system_t, largest_of_elements
   use base_kinds, only: wp, zero, one, half
   use base_status, only: status_t, fail, status_numerical
   use base_strings, only: to_text
@@ -89,7 +88,7 @@ contains
       end associate
     end do
     if (.not. force > zero) force = factor*extent* &
-        max(largest_stiffness(system%block), tiny(one))
+        max(largest_of_elements(system), tiny(one))
     do p = 1, size(model%rigid%part)
       shift(model%rigid%centre(p)) = force/extent
       shift(model%rigid%rotor(p)) = force/extent

@@ -77,6 +77,7 @@ contains
     type(run_t), intent(in) :: run
     character(:), allocatable :: obstacle
     obstacle = ''
+    if (associated(run%team)) obstacle = 'several ranks, whose matrix is spread'
     if (allocated(run%rigid)) obstacle = 'rigid parts, which couple all that they touch'
     if (run%plan%dump) obstacle = 'DFIRST, which writes all of W'
     if (run%step%mode == step_event) obstacle = 'steps cut at a touch, which ask for all of W'

@@ -343,7 +343,8 @@ BASE_FAULTS = [
     ("field part set", "*END", "*BIPACT_FIELD\n     0.001        99\n*END"),
     ("restart keep", "*END", "*BIPACT_RESTART\n       100,,0\n*END"),
     ("d3plot curve", "*END", "*DATABASE_BINARY_D3PLOT\n     0.001         5\n*END"),
-    ("engine", "*END", "*BIPACT_SOLVER\n     MUMPS\n*END"),
+    ("engine", "*END", "*BIPACT_SOLVER\n   PARDISO\n*END"),
+    ("engine of several ranks", "*END", "*BIPACT_SOLVER\n     MUMPS\n*END"),
     # explicit runs
     ("implicit flag", "         1       &dt", "         4       &dt"),
     ("no step", "         1       &dt", "         1"),

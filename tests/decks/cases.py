@@ -325,8 +325,9 @@ def engines():
     _, folder = bars("default", **scene)
     base = table(folder, "nodout")
     text = open(os.path.join(scenes.TMP, "default.k")).read()
-    # DIAGONAL is the engine of explicit runs: tests/decks/explicit.py.
-    engine_names = [e for e in scenes.words_of("ENGINE") if e != "DIAGONAL"]
+    # DIAGONAL is the engine of explicit runs: tests/decks/explicit.py; MUMPS that of several
+    # ranks: tests/mpi.
+    engine_names = [e for e in scenes.words_of("ENGINE") if e not in ("DIAGONAL", "MUMPS")]
     pairs = list(itertools.product(engine_names, scenes.words_of("ORDER")))
     check({("SKYLINE", "METIS"), ("SUPERNODAL", "RCM")} <= set(pairs), "engines and orders by name")
     for engine, order_name in pairs:
