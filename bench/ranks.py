@@ -19,8 +19,8 @@ import make_bars
 PROGRAM = os.path.join(common.ROOT, "bin", "bipact-mpi")
 
 
-FACTORS = 8
-STEPS = 40
+FACTORS = 6
+STEPS = 20
 
 
 def deck_of(folder, nx, ny, steps, end, engine):
@@ -64,14 +64,15 @@ def main():
     parser.add_argument("--nx", type=int, default=664, help="elements along each bar (664)")
     parser.add_argument("--ny", type=int, default=75, help="across (75)")
     parser.add_argument("--rounds", type=int, default=3, help="of which the least counts (3)")
-    parser.add_argument("--most", type=int, default=4, help="ranks (4)")
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 3, 4], help="(1 2 3 4)")
     a = parser.parse_args()
     if shutil.which("mpirun") is None or not os.path.exists(PROGRAM):
         raise SystemExit("bipact-mpi is not built: no MPI or MUMPS here")
     print("%d unknowns; of the ranks the one with the most" % (4 * (a.nx + 1) * (a.ny + 1)))
     print("ranks engine factor s  step ms  memory MB  of the others MB")
     with tempfile.TemporaryDirectory() as folder:
-        for ranks, engine in [(1, "AUTO")] + [(n, "MUMPS") for n in range(1, a.most + 1)]:
+        serial = [(1, "AUTO")] if 1 in a.ranks else []
+        for ranks, engine in serial + [(n, "MUMPS") for n in a.ranks]:
             few = deck_of(folder, a.nx, a.ny, FACTORS, 1.0, engine)
             each = deck_of(folder, a.nx, a.ny, FACTORS, 2.0, engine)
             many = deck_of(folder, a.nx, a.ny, FACTORS + STEPS, 1.0, engine)

@@ -76,21 +76,7 @@ contains
         'first step whose contact problem is written; 0 = none')
     call add_field(table, 'DLAST', 'I10 =0 >=0', 'last such step; 0 = DFIRST')
     call add_field(table, 'DEVERY', 'I10 =1 >0', 'every so many steps')
-    call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
-    call add_card(table)
-    call add_field(table, 'ENGINE', 'W10 =AUTO '// &
-        choices([character(name_length) :: 'AUTO', engines, engine_ranks]), &
-        'factor; MUMPS: of bipact-mpi')
-    call add_field(table, 'ORDER', 'W10 =AUTO '// &
-        choices([character(name_length) :: 'AUTO', order_names]), &
-        'elimination order; AUTO: fewest flops')
-    call add_field(table, 'SCHUR', 'W10 =AUTO |AUTO|YES|', 'contact dofs last')
-    call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
-    call add_field(table, 'CGTOL', 'R10 =1.0E-12 >0 <=0.001', &
-        'ENGINE CG: residual over right-hand side')
-    call add_field(table, 'CGMAX', 'I10 =1000 >0', 'ENGINE CG: iterations of a solve at most')
-    call add_field(table, 'THREADS', 'I10 =1 >0 <=1024', &
-        'threads of factor, solves and element loops')
+    call add_linear_solver(table, engines)
     call add_keyword(table, 'BIPACT_LEDGER', 'energy ledger', required=1, once=.true.)
     call add_card(table)
     call add_field(table, 'EVERY', 'I10 =0 >=0', 'steps between evaluations; 0 = with GLSTAT')
@@ -118,6 +104,27 @@ contains
     call add_step_keyword(table)
     call add_storage_keywords(table)
   end subroutine add_own_keywords
+
+  !> Engines: the names of linalg_registry.
+  subroutine add_linear_solver(table, engines)
+    type(table_t), intent(inout) :: table
+    character(*), intent(in) :: engines(:)
+    call add_keyword(table, 'BIPACT_SOLVER', 'linear solver', required=1, once=.true.)
+    call add_card(table)
+    call add_field(table, 'ENGINE', 'W10 =AUTO '// &
+        choices([character(name_length) :: 'AUTO', engines, engine_ranks]), &
+        'factor; MUMPS: of bipact-mpi')
+    call add_field(table, 'ORDER', 'W10 =AUTO '// &
+        choices([character(name_length) :: 'AUTO', order_names]), &
+        'elimination order; AUTO: fewest flops')
+    call add_field(table, 'SCHUR', 'W10 =AUTO |AUTO|YES|', 'contact dofs last')
+    call add_field(table, 'NLAST', 'I10 =600 >0', 'largest contact block (dofs) without a note')
+    call add_field(table, 'CGTOL', 'R10 =1.0E-12 >0 <=0.001', &
+        'ENGINE CG: residual over right-hand side')
+    call add_field(table, 'CGMAX', 'I10 =1000 >0', 'ENGINE CG: iterations of a solve at most')
+    call add_field(table, 'THREADS', 'I10 =1 >0 <=1024', &
+        'threads of factor, solves and element loops')
+  end subroutine add_linear_solver
 
   subroutine add_kinematics(table)
     type(table_t), intent(inout) :: table
