@@ -186,9 +186,13 @@ contains
     type(overlap_t), intent(inout) :: overlap
     integer, parameter :: least = 8, most = 512
     real(wp) :: way    ! in shortest edges
-    integer :: times, k, s
+    integer :: times, i, k, s
     if (this%is_self) return
-    way = sqrt(maxval(sum(du**2, dim=1)))/min(this%side(1)%shortest, this%side(2)%shortest)
+    way = zero
+    do i = 1, size(du, 2)
+      way = max(way, du(1, i)**2 + du(2, i)**2 + du(3, i)**2)
+    end do
+    way = sqrt(way)/min(this%side(1)%shortest, this%side(2)%shortest)
     times = least
     if (way > least) times = 2*ceiling(min(way, half*most))
     do k = 1, times - 1
