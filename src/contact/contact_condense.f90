@@ -201,22 +201,20 @@ contains
     end do
   end function form
 
-  !> The same for dofs of several bodies: what is of one body at a time.
-  pure real(wp) function form_of_bodies(f, n, dof, weight) result(sum_of_forms)
+  !> The same for dofs of several bodies, which f does not couple.
+  pure real(wp) function form_of_bodies(f, n, dof, weight) result(total)
     type(body_blocks_t), intent(in) :: f
     integer, intent(in) :: n, dof(:)
     real(wp), intent(in) :: weight(:)
-    real(wp) :: own_weight(n)
-    integer :: k, own, body, own_dof(n)
-    sum_of_forms = zero
+    integer :: j, k, body, start
+    total = zero
     do k = 1, n
       body = f%body(dof(k))
-      if (any(f%body(dof(:k - 1)) == body)) cycle
-      own = count(f%body(dof(:n)) == body)
-      own_dof(:own) = pack(dof(:n), f%body(dof(:n)) == body)
-      own_weight(:own) = pack(weight(:n), f%body(dof(:n)) == body)
-      sum_of_forms = sum_of_forms + form(f%block(body)%a, f%first(body) - 1, own, own_dof, &
-          own_weight)
+      start = f%first(body) - 1
+      do j = 1, n
+        if (f%body(dof(j)) == body) total = total &
+            + weight(j)*weight(k)*f%block(body)%a(dof(j) - start, dof(k) - start)
+      end do
     end do
   end function form_of_bodies
 
