@@ -34,13 +34,15 @@ KINDS = {
 STEPS = {"finite": 2, "every": 8}
 # Ranks; 3: all of input/ besides, which takes minutes.
 MOST = int(os.environ.get("RANKS", "2"))
+ALONE = "input_cards", "input_catalogue", "input_lessons", "input_space"
 EXPLICIT = dict(scheme="PAOLI", pbeta=0.0, mass="LUMPED", courant=0.3)
 
 
 def mpirun(ranks, *command):
     """The command that starts so many ranks."""
     root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-    start = ["mpirun", *root, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)]
+    start = ["mpirun", *root, "--oversubscribe", "--bind-to", "none"]
+    start += ["--mca", "mpi_yield_when_idle", "1", "-n", str(ranks)]
     return start + [PROGRAM, *command]
 
 
@@ -317,6 +319,9 @@ def main():
         print("bipact-mpi is not built: no MPI or MUMPS here")
         sys.exit(77)
     what = sys.argv[1]
+    if what in ALONE and MOST < 3:
+        print("minutes on a busy machine: RANKS=3 in the environment runs it")
+        sys.exit(77)
     if what.startswith("input_"):
         try_decks(what[len("input_") :])
     else:
