@@ -366,7 +366,7 @@ def space_engines():
     history = ["*DATABASE_HISTORY_NODE", "12,1012,2012,3012,4012,5012"]
     found = {}
     for engine in scenes.words_of("ENGINE"):
-        if engine == "DIAGONAL":
+        if engine in ("DIAGONAL", "MUMPS"):
             continue
         cards = all_forms() + history + ["*BIPACT_SOLVER", engine + ","]
         text = deck(cards, 1.0e-4, 0.02, tables=("NODOUT",), every=1.0e-3)
