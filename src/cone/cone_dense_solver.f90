@@ -22,6 +22,9 @@ module cone_dense_solver
   !> more sweeps than unknowns have been spent.
   integer, parameter :: small_system = 64
 
+  !> The last resort has so many times MAXIT where the unknowns are so few that it costs little.
+  integer, parameter :: few_unknowns = 300, more_sweeps = 10
+
   !> Sweeps after which the other methods are tried.
   integer, parameter :: patience = 200
 
@@ -84,6 +87,7 @@ contains
     real(wp), dimension(size(q, 1), size(q, 2)) :: kept
     kept = r
     other = options
+    if (size(q) <= few_unknowns) other%max_sweeps = more_sweeps*options%max_sweeps
     do k = 1, 2
       r = zero
       other%solver = merge(solver_auto, solver_prox, k == 1)
