@@ -207,15 +207,19 @@ contains
     integer, intent(in) :: n, dof(:)
     real(wp), intent(in) :: weight(:)
     real(wp) :: own_weight(n)
-    integer :: k, own, body, own_dof(n)
+    integer :: j, k, own, body, own_dof(n)
     sum_of_forms = zero
     do k = 1, n
       body = f%body(dof(k))
-      if (any(f%body(dof(:k - 1)) == body)) cycle
-      own = count(f%body(dof(:n)) == body)
-      own_dof(:own) = pack(dof(:n), f%body(dof(:n)) == body)
-      own_weight(:own) = pack(weight(:n), f%body(dof(:n)) == body)
-      sum_of_forms = sum_of_forms + form(f%block(body)%a, f%first(body) - 1, own, own_dof, &
+      own = 0
+      do j = 1, n
+        if (f%body(dof(j)) /= body) cycle
+        if (j < k) exit      ! it has been taken
+        own = own + 1
+        own_dof(own) = dof(j)
+        own_weight(own) = weight(j)
+      end do
+      if (own > 0) sum_of_forms = sum_of_forms + form(f%block(body)%a, f%first(body) - 1, own, own_dof, &
           own_weight)
     end do
   end function form_of_bodies
