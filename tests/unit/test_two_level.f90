@@ -136,7 +136,8 @@ contains
     call check_true(schur%bodies == 2 .and. all(schur%first == [1, 151, 301]), 'two blocks')
     call check_true(schur%bytes() == 2*8*300**2, 'half the bytes')
     call size_blocks(schur, blocks)
-    call check_true(blocks%rows() == 600 .and. size(blocks%block(2)%a) == 90000, 'their inverse')
+    call check_true(blocks%rows() == 600 .and. size(blocks%block(2)%a) == 90000, &
+        'their inverse')
     call schur%plan(graph, 2, [(1 + mod(337*k, 600), k=1, 300)])
     call check_true(schur%bodies == 1, 'one block where bodies alternate')
     call schur%plan(graph, 2, [1, 2, 599, 600])
