@@ -44,8 +44,9 @@ module linalg_bodies
     procedure :: clear_row
   end type body_blocks_t
 
-  !> Up to this many dofs one block of all bodies is as cheap as one of each.
-  integer, parameter :: small_block = 64
+  !> Up to this many dofs (1.3 MB, in the fast memory of a core) one block of all bodies is as
+  !> cheap as one of each.
+  integer, parameter :: small_block = 400
 
   public :: find_bodies, size_blocks, move_blocks
 

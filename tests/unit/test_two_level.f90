@@ -127,19 +127,20 @@ contains
     type(graph_t) :: graph
     type(schur_t) :: schur
     type(body_blocks_t) :: blocks
-    integer :: body(100), bodies, k
-    call make_strips(100, graph)
+    integer :: body(600), bodies, k
+    call make_strips(600, graph)
     call find_bodies(graph, body, bodies)
-    call check_true(bodies == 2 .and. all(body(:50) == 1) .and. &
-        all(body(51:) == 2), 'two bodies')
-    call schur%plan(graph, 2, [(k, k=21, 80)])
-    call check_true(schur%bodies == 2 .and. all(schur%first == [1, 31, 61]), 'two blocks')
-    call check_true(schur%bytes() == 2*8*60**2, 'half the bytes')
+    call check_true(bodies == 2 .and. all(body(:300) == 1) .and. &
+        all(body(301:) == 2), 'two bodies')
+    call schur%plan(graph, 2, [(k, k=151, 450)])
+    call check_true(schur%bodies == 2 .and. all(schur%first == [1, 151, 301]), 'two blocks')
+    call check_true(schur%bytes() == 2*8*300**2, 'half the bytes')
     call size_blocks(schur, blocks)
-    call check_true(blocks%rows() == 120 .and. size(blocks%block(2)%a) == 3600, 'their inverse')
-    call schur%plan(graph, 2, [(1 + mod(37*k, 100), k=1, 60)])
+    call check_true(blocks%rows() == 600 .and. size(blocks%block(2)%a) == 90000, &
+        'their inverse')
+    call schur%plan(graph, 2, [(1 + mod(337*k, 600), k=1, 300)])
     call check_true(schur%bodies == 1, 'one block where bodies alternate')
-    call schur%plan(graph, 2, [1, 2, 99, 100])
+    call schur%plan(graph, 2, [1, 2, 599, 600])
     call check_true(schur%bodies == 1, 'one block of a few')
   end subroutine test_bodies
 
