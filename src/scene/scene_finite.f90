@@ -40,7 +40,7 @@ contains
     call check_scheme(deck, controls, r)
   end subroutine read_kinematics
 
-  !> What the deck says of Newton's method; without it, a note.
+  !> What the deck says of Newton's method; without it, a note each.
   subroutine read_iteration(deck, controls, r)
     type(deck_t), intent(inout) :: deck
     type(controls_t), intent(inout) :: controls
@@ -55,10 +55,10 @@ contains
       do k = 1, size(fields)
         if (k <= 2) value = deck%integer(r, trim(fields(k)))
         if (k > 2) value = deck%real(r, trim(fields(k)))
-        if (abs(value) > zero .and. abs(value - filled(k)) > 1.0e-6_wp*filled(k)) exit
+        if (abs(value) > zero .and. abs(value - filled(k)) > 1.0e-6_wp*filled(k)) &
+            call add_note(deck%problems, '*CONTROL_IMPLICIT_SOLUTION '//trim(fields(k))// &
+            ' has no effect: small displacements need no iterations')
       end do
-      if (k <= size(fields)) call add_note(deck%problems, '*CONTROL_IMPLICIT_SOLUTION '// &
-          trim(fields(k))//' has no effect: small displacements need no iterations')
       return
     end if
     associate (i => controls%iteration)
