@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# 12 000 damaged decks; the slower flavours take 5 000. Any number: make fuzz N=...
+# 7000 damaged decks; the slower flavours take 5 000. Any number: make fuzz N=...
 count=7000
 [ "$FLAVOUR" = release ] || count=5000
 exec "$PYTHON" "$ROOT/tests/fuzz/fuzz.py" --count "${FUZZ:-$count}"
