@@ -8,7 +8,7 @@
 !> F^-1. forward solves A x = b without the block's reactions, backward adds A^-1 of what the
 !> block has moved.
 module linalg_cg
-  use base_checks, only: checks_on, assert_shape
+  use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, i8, zero, one, half
   use base_status, only: status_t, fail, failed, status_numerical, status_deck
   use base_strings, only: to_text
@@ -132,13 +132,13 @@ contains
         [size(this%f, 1)])), shape(x_interface))
   end subroutine cg_solve_schur
 
-  !> Of the one block that there is, number k.
+  !> There is one block, number k = 1.
   subroutine cg_flexibility(this, k, f)
     class(cg_t), intent(in) :: this
     integer, intent(in) :: k
     real(wp), intent(out), contiguous :: f(:, :)
+    if (checks_on) call assert(k == 1, 'cg_flexibility', 'there is one block')
     if (checks_on) call assert_shape(shape(f), shape(this%f), 'cg_flexibility', 'f')
-    if (k /= 1) return
     f = this%f
   end subroutine cg_flexibility
 

@@ -178,29 +178,8 @@ contains
     real(wp), intent(in) :: l(width + below, width)
     real(wp), intent(inout) :: x(width)
     real(wp), intent(out) :: y(below)
-    real(wp) :: t1, t2, t3, t4
-    integer :: i, j
-    y = zero
-    do j = 1, width - 3, 4
-      t1 = x(j)*l(j, j)
-      t2 = (x(j + 1) - l(j + 1, j)*t1)*l(j + 1, j + 1)
-      t3 = (x(j + 2) - l(j + 2, j)*t1 - l(j + 2, j + 1)*t2)*l(j + 2, j + 2)
-      t4 = (x(j + 3) - l(j + 3, j)*t1 - l(j + 3, j + 1)*t2 - l(j + 3, j + 2)*t3) &
-          *l(j + 3, j + 3)
-      x(j:j + 3) = [t1, t2, t3, t4]
-      do i = j + 4, width
-        x(i) = x(i) - (l(i, j)*t1 + l(i, j + 1)*t2 + l(i, j + 2)*t3 + l(i, j + 3)*t4)
-      end do
-      do i = 1, below
-        y(i) = y(i) - (l(width + i, j)*t1 + l(width + i, j + 1)*t2 + l(width + i, j + 2)*t3 &
-            + l(width + i, j + 3)*t4)
-      end do
-    end do
-    do j = width - mod(width, 4) + 1, width
-      x(j) = x(j)*l(j, j)
-      x(j + 1:) = x(j + 1:) - l(j + 1:width, j)*x(j)
-      y = y - l(width + 1:, j)*x(j)
-    end do
+    call forward_columns(width, below, l, x)
+    if (below > 0) call forward_tile(below, width, width + below, l(width + 1, 1), x, y)
   end subroutine forward_panel
 
   !> Is a panel worth more than one thread in the passes?
@@ -299,12 +278,7 @@ contains
       if (j + 3 < width) &
           call four_products(width - j - 3, width + below, l(j + 4, j), x(j + 4), s)
       if (below > 0) call four_products(below, width + below, l(width + 1, j), y, s)
-      x(j + 3) = (x(j + 3) - s(4))*l(j + 3, j + 3)
-      x(j + 2) = (x(j + 2) - s(3) - l(j + 3, j + 2)*x(j + 3))*l(j + 2, j + 2)
-      x(j + 1) = (x(j + 1) - s(2) - l(j + 2, j + 1)*x(j + 2) - l(j + 3, j + 1)*x(j + 3)) &
-          *l(j + 1, j + 1)
-      x(j) = (x(j) - s(1) - l(j + 1, j)*x(j + 1) - l(j + 2, j)*x(j + 2) &
-          - l(j + 3, j)*x(j + 3))*l(j, j)
+      call close_four(width + below, l(j, j), s, x(j))
     end do
   end subroutine backward_panel
 
@@ -327,14 +301,20 @@ contains
           call four_products(width - j - 3, width + below, l(j + 4, j), x(j + 4), s)
       s = s + below_sums(:, (j + 3)/4)
       if (mod(below, 2) == 1) s = s + l(width + below, j:j + 3)*y(below)
-      x(j + 3) = (x(j + 3) - s(4))*l(j + 3, j + 3)
-      x(j + 2) = (x(j + 2) - s(3) - l(j + 3, j + 2)*x(j + 3))*l(j + 2, j + 2)
-      x(j + 1) = (x(j + 1) - s(2) - l(j + 2, j + 1)*x(j + 2) - l(j + 3, j + 1)*x(j + 3)) &
-          *l(j + 1, j + 1)
-      x(j) = (x(j) - s(1) - l(j + 1, j)*x(j + 1) - l(j + 2, j)*x(j + 2) &
-          - l(j + 3, j)*x(j + 3))*l(j, j)
+      call close_four(width + below, l(j, j), s, x(j))
     end do
   end subroutine backward_columns
+
+  !> Four unknowns from the last to the first, s what the known ones take from them.
+  pure subroutine close_four(height, l, s, x)
+    integer, intent(in) :: height
+    real(wp), intent(in) :: l(height, *), s(4)
+    real(wp), intent(inout) :: x(4)
+    x(4) = (x(4) - s(4))*l(4, 4)
+    x(3) = (x(3) - s(3) - l(4, 3)*x(4))*l(3, 3)
+    x(2) = (x(2) - s(2) - l(3, 2)*x(3) - l(4, 2)*x(4))*l(2, 2)
+    x(1) = (x(1) - s(1) - l(2, 1)*x(2) - l(3, 1)*x(3) - l(4, 1)*x(4))*l(1, 1)
+  end subroutine close_four
 
   !> s = s + L' y for n rows of four columns; even and odd rows have sums of their own.
   pure subroutine four_products(n, height, l, y, s)

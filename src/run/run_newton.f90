@@ -27,6 +27,7 @@ module run_newton
   use time_ledger, only: find_strain_energies
   implicit none
   private
+  character(*), parameter :: take_less = 'take a smaller step, or MODE HALVE of *BIPACT_STEP'
   public :: make_newton, choose_force, iterates, solve_newton, close_newton, exchange_newton
 
 contains
@@ -111,7 +112,7 @@ contains
     character(:), allocatable :: text, hint
     text = "Newton's method has not converged in "//to_text(run%newton%most_passes)// &
         ' passes: the last moved by '//to_text(change)
-    hint = 'take a smaller step, or MODE HALVE of *BIPACT_STEP'
+    hint = take_less
     if (run%step%is_static .and. .not. run%system%force_rule%geometric > zero) then
       text = text//'; its matrix is not positive definite'
       hint = 'no stable state may be near: a limit of the load, or buckling; take a '// &
@@ -301,8 +302,8 @@ contains
     status = status_t()
     run%system%force_rule%geometric = zero
     call factor_matrix(run, .false., status)
-    if (status%code == status_numerical) status%hint = 'take a smaller step, or MODE HALVE '// &
-        'of *BIPACT_STEP; or is a part held by nothing?'
+    if (status%code == status_numerical) status%hint = take_less// &
+        '; or is a part held by nothing?'
   end subroutine factor_tangent
 
   !> At the start, and where the last passes converged slowly; in a load step, whose matrix no
@@ -385,7 +386,7 @@ contains
     type(status_t), intent(inout) :: status
     call fail(status, status_numerical, 'element '//to_text(run%model%mesh%id(element))// &
         ' is turned inside out (det F <= 0)', &
-        hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
+        hint=take_less)
   end subroutine refuse_inversion
 
   !> The end of a step that has converged: has each law a value there, and does it hold? The
@@ -407,7 +408,7 @@ contains
     end do
     if (.not. has_value(energy)) call fail(status, status_numerical, &
         'a law has no value at the end of the step: an element is pressed or drawn too far', &
-        hint='take a smaller step, or MODE HALVE of *BIPACT_STEP')
+        hint=take_less)
     call check_compression(run, run%newton%trial, status)
   end subroutine check_end
 

@@ -427,7 +427,8 @@ def commands():
     with open(os.path.join(folder, "bipact.log"), encoding="utf-8") as file:
         log = file.read()
     check("\n".join(needs) in log, "--plan says what the run needs")
-    # Counts decide the memory; a factor 4 allows for a machine that measures its rate badly.
+    # Memory against that of the run. Time is not judged here, on a machine that may be busy, but
+    # in bench/forecast.py; here it must be that of the steps, and what comes before them.
     forecast = r"forecast: memory (\d+) MB, start \S+ s, a step (\S+) s, the run (\S+) s at"
     memory, step, whole = map(float, re.search(forecast, out).groups())
     was = re.search(r"peak memory (\d+) kB", log)
