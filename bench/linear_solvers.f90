@@ -9,7 +9,8 @@
 program linear_solvers
   use base_kinds, only: wp
   use base_status, only: status_t, failed, status_text
-  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques
+  use grid_matrices, only: make_graph, fill_matrix, remainder
+  use linalg_graph, only: graph_t, block_matrix_t
   use linalg_registry, only: make_solver
   use linalg_solver, only: solver_t, solver_options_t, solve_whole
   use thread_clock, only: path_seconds
@@ -31,8 +32,8 @@ program linear_solvers
   read (word(2), *) n
   read (word(3), *) d
   if (word(5) /= '') read (word(5), *) options%threads
-  call make_graph()
-  call fill_matrix()
+  call make_graph(n, d, graph)
+  call fill_matrix(graph, d, matrix)
   allocate (b(d, graph%n), x(d, graph%n))
   call random_number(b)
   call make_solver(options, solver, status)
@@ -61,66 +62,13 @@ program linear_solvers
   print '(a, i0, 3a, f0.3, a, f0.1, a)', 'dofs ', d*graph%n, ', order ', solver%info%order, &
       ', ', gigaflops, ' Gflop, factor ', 1.0e-6_wp*real(solver%info%factor_bytes, wp), ' MB'
   print '(2(a, f0.3), a, f0.1, a, f0.4, a, es7.1)', 'analysis ', analysis, ' s, factor ', factor, &
-      ' s (', gigaflops/factor, ' Gflop/s), solve ', 1.0e3_wp*passes, ' ms, residual ', residual()
+      ' s (', gigaflops/factor, ' Gflop/s), solve ', 1.0e3_wp*passes, ' ms, residual ', &
+      norm2(remainder(graph, matrix, b, x))/norm2(b)
 
 contains
 
   real(wp) function seconds()
     seconds = path_seconds()
   end function seconds
-
-  !> The first face has the numbers 1..n^(d-1).
-  subroutine make_graph()
-    integer, allocatable :: member(:)
-    integer :: e, i, corner, node, elements
-    elements = (n - 1)**d
-    allocate (member(2**d*elements))
-    do e = 0, elements - 1
-      do corner = 0, 2**d - 1
-        node = 0
-        do i = d - 1, 0, -1
-          node = node*n + mod(e/(n - 1)**i, n - 1) + ibits(corner, i, 1)
-        end do
-        member(2**d*e + corner + 1) = node + 1
-      end do
-    end do
-    call graph_from_cliques(n**d, [(2**d*e + 1, e=0, elements)], member, graph)
-  end subroutine make_graph
-
-  !> Random, symmetric, diagonally dominant.
-  subroutine fill_matrix()
-    real(wp) :: block(d, d)
-    integer :: i, m, c
-    allocate (matrix%value(d, d, size(graph%column)), matrix%diagonal(d, graph%n))
-    do i = 1, graph%n
-      do m = graph%first(i), graph%first(i + 1) - 1
-        if (graph%column(m) > i) cycle
-        call random_number(block)
-        block = block - 0.5_wp
-        if (graph%column(m) == i) then
-          block = block + transpose(block)
-          do c = 1, d
-            block(c, c) = block(c, c) + d*(graph%first(i + 1) - graph%first(i))
-            matrix%diagonal(c, i) = block(c, c)
-          end do
-        end if
-        matrix%value(:, :, m) = block
-        matrix%value(:, :, graph%position(graph%column(m), i)) = transpose(block)
-      end do
-    end do
-  end subroutine fill_matrix
-
-  !> |b - A x|/|b|.
-  real(wp) function residual()
-    real(wp) :: r(d, graph%n)
-    integer :: i, m
-    r = b
-    do i = 1, graph%n
-      do m = graph%first(i), graph%first(i + 1) - 1
-        r(:, i) = r(:, i) - matmul(matrix%value(:, :, m), x(:, graph%column(m)))
-      end do
-    end do
-    residual = norm2(r)/norm2(b)
-  end function residual
 
 end program linear_solvers

@@ -20,7 +20,7 @@ module linalg_subtrees
   !> Largest share of the cost in one part: smaller ones leave more for the top.
   real(wp), parameter :: grain = 0.09_wp
   !> Share of that below which a part is left to the top.
-  real(wp), parameter :: crumb = 0.03_wp
+  real(wp), parameter :: least_share = 0.03_wp
 
 contains
 
@@ -42,7 +42,7 @@ contains
       end if
       call take_subtree(first(k), k, sums(k), limit, this, of)
     end do
-    call drop_crumb(limit, this, of)
+    call drop_small(limit, this, of)
     if (this%n < 2) this%n = 0
     this%first = this%first(:this%n)
     this%last = this%last(:this%n)
@@ -82,7 +82,7 @@ contains
         return
       end if
     end if
-    call drop_crumb(limit, this, of)
+    call drop_small(limit, this, of)
     this%n = this%n + 1
     this%first(this%n) = first
     this%last(this%n) = last
@@ -90,13 +90,13 @@ contains
   end subroutine take_subtree
 
   !> The last part so far goes to the top if it is not worth a part.
-  pure subroutine drop_crumb(limit, this, of)
+  pure subroutine drop_small(limit, this, of)
     real(wp), intent(in) :: limit
     type(subtrees_t), intent(inout) :: this
     real(wp), intent(in) :: of(:)
     if (this%n == 0) return
-    if (of(this%n) < crumb*limit) this%n = this%n - 1
-  end subroutine drop_crumb
+    if (of(this%n) < least_share*limit) this%n = this%n - 1
+  end subroutine drop_small
 
   !> Numbers of the costs from the largest to the smallest, equal ones in their order.
   pure subroutine sort_by_cost(cost, list)

@@ -5,7 +5,8 @@ program test_threads
   use base_status, only: status_t, failed
   use base_strings, only: to_text
   use check, only: test_start, test_end, check_equal, check_true, seed_random
-  use linalg_graph, only: graph_t, block_matrix_t, graph_from_cliques
+  use grid_matrices, only: make_graph, fill_matrix, remainder
+  use linalg_graph, only: graph_t, block_matrix_t
   use linalg_registry, only: make_solver
   use linalg_solver, only: solver_t, solver_options_t, solve_whole
   use linalg_subtrees, only: subtrees_t, find_subtrees
@@ -80,54 +81,14 @@ contains
     call fill_matrix(graph, d, matrix)
     call random_number(b)
     call solve(engine, 1, d, graph, matrix, b, first)
-    call check_true(misfit(graph, matrix, b, first) < 1.0e-12_wp, engine//' solves')
+    call check_true(maxval(abs(remainder(graph, matrix, b, first))) < &
+        1.0e-12_wp, engine//' solves')
     do threads = 2, 4
       call solve(engine, threads, d, graph, matrix, b, x)
       call check_true(all(abs(x - first) <= 0.0_wp), engine//', d = '//to_text(d)//', '// &
           to_text(threads)//' threads')
     end do
   end subroutine check_engine
-
-  !> A square or a cube of n nodes a side.
-  subroutine make_graph(n, d, graph)
-    integer, intent(in) :: n, d
-    type(graph_t), intent(out) :: graph
-    integer :: member(2**d*(n - 1)**d), e, i, corner, node
-    do e = 0, (n - 1)**d - 1
-      do corner = 0, 2**d - 1
-        node = 0
-        do i = d - 1, 0, -1
-          node = node*n + mod(e/(n - 1)**i, n - 1) + ibits(corner, i, 1)
-        end do
-        member(2**d*e + corner + 1) = node + 1
-      end do
-    end do
-    call graph_from_cliques(n**d, [(2**d*e + 1, e=0, (n - 1)**d)], member, graph)
-  end subroutine make_graph
-
-  !> Random, symmetric, diagonally dominant.
-  subroutine fill_matrix(graph, d, matrix)
-    type(graph_t), intent(in) :: graph
-    integer, intent(in) :: d
-    type(block_matrix_t), intent(out) :: matrix
-    real(wp) :: block(d, d)
-    integer :: i, m, c
-    allocate (matrix%value(d, d, size(graph%column)))
-    do i = 1, graph%n
-      do m = graph%first(i), graph%first(i + 1) - 1
-        if (graph%column(m) > i) cycle
-        call random_number(block)
-        if (graph%column(m) == i) then
-          block = block + transpose(block)
-          do c = 1, d
-            block(c, c) = block(c, c) + 2*d*(graph%first(i + 1) - graph%first(i))
-          end do
-        end if
-        matrix%value(:, :, m) = block
-        matrix%value(:, :, graph%position(graph%column(m), i)) = transpose(block)
-      end do
-    end do
-  end subroutine fill_matrix
 
   subroutine solve(engine, threads, d, graph, matrix, b, x)
     character(*), intent(in) :: engine
@@ -145,21 +106,5 @@ contains
     call check_true(.not. failed(status), engine//' factors')
     call solve_whole(solver, b, x)
   end subroutine solve
-
-  !> Largest entry of b - A x.
-  real(wp) function misfit(graph, matrix, b, x)
-    type(graph_t), intent(in) :: graph
-    type(block_matrix_t), intent(in) :: matrix
-    real(wp), intent(in) :: b(:, :), x(:, :)
-    real(wp) :: r(size(b, 1), size(b, 2))
-    integer :: i, m
-    r = b
-    do i = 1, graph%n
-      do m = graph%first(i), graph%first(i + 1) - 1
-        r(:, i) = r(:, i) - matmul(matrix%value(:, :, m), x(:, graph%column(m)))
-      end do
-    end do
-    misfit = maxval(abs(r))
-  end function misfit
 
 end program test_threads
