@@ -28,7 +28,7 @@ contains
     if (r > 0 .and. solver /= solver_linear .and. solver /= solver_finite) &
         call deck%complain(r, 'NSOLVR', 'expected 1 (small displacements) or 12 (finite '// &
         'deformation)')
-    controls%is_finite = solver == solver_finite
+    controls%is_finite = solver /= solver_linear    ! one message for a faulty number is enough
     if (r > 0) call read_iteration(deck, controls, r)
     card = deck%next('BIPACT_KINEMATICS', 1, 0)
     if (.not. controls%is_finite) then

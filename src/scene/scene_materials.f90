@@ -63,7 +63,9 @@ contains
           keyword == 'MAT_ELASTIC' .and. model%controls%is_hencky)), id, constants, material)
     end if
     if (.not. material%is_linear) then
-      call check_finite(deck, record, keyword)
+      if (.not. model%controls%is_finite) call deck%complain(record, '', '*'//keyword// &
+          ' is a law of finite strain, and this deck has small displacements', &
+          'set NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, or take *MAT_ELASTIC')
     else if (deck%real(record, 'PR') > 0.49_wp .and. .not. deck%in_space) then
       call add_warning(deck%problems, 'poisson', deck%place(record)//': PR > 0.49 of '// &
           'material '//to_text(id)//': fully integrated elements lock; lower PR, or refine')
@@ -90,21 +92,6 @@ contains
       end do
     end associate
   end function constants_of
-
-  !> A law at finite strain takes part in no linear deck.
-  subroutine check_finite(deck, record, keyword)
-    type(deck_t), intent(inout) :: deck
-    integer, intent(in) :: record
-    character(*), intent(in) :: keyword
-    integer :: solution
-    solution = deck%next('CONTROL_IMPLICIT_SOLUTION', 1, 0)
-    if (solution > 0) then
-      if (deck%integer(solution, 'NSOLVR') == 12) return
-    end if
-    call deck%complain(record, '', '*'//keyword//' is a law of finite strain, and this '// &
-        'deck has small displacements', &
-        'set NSOLVR 12 of *CONTROL_IMPLICIT_SOLUTION, or take *MAT_ELASTIC')
-  end subroutine check_finite
 
   !> What the fields of a law must be together; the points of its yield stress, if it has any.
   subroutine check_law(deck, model, maps, record, keyword, c, yield, good)
