@@ -20,6 +20,8 @@ module run_forecast
   real(wp), parameter :: of_factor = 0.33_wp, of_panels = 0.65_wp, of_solve = 0.25_wp, &
       of_product = 0.4_wp, of_law = 0.45_wp, of_dense = 0.5_wp
   integer(i8), parameter :: of_tables = 1500000_i8  ! of tables and log
+  !> Gflop/s where the run is too short to measure them [s].
+  real(wp), parameter :: usual_rate = 5.0_wp, worth_a_look = 1.0_wp
   real(wp), parameter :: call_cost = 1.5e-6_wp     ! [s] of a step of a scene without size
 
 contains
@@ -29,12 +31,24 @@ contains
     type(run_t), intent(in) :: run
     logical, intent(in) :: is_made
     type(forecast_t), intent(out) :: forecast
-    real(wp) :: factor, solve, product, tangent, contact, factors, passes
     call cpu_time(forecast%cpu)
-    forecast%rate = measured_rate()
+    forecast%rate = usual_rate
+    call estimate_times(run, is_made, forecast)
+    if (.not. is_made .or. forecast%whole > worth_a_look) then
+      forecast%rate = measured_rate()
+      call estimate_times(run, is_made, forecast)
+    end if
     forecast%bytes = peak_memory()
     if (.not. is_made) forecast%bytes = forecast%bytes + run%solver%info%factor_bytes &
         + inverse_bytes(run%solver) + front_bytes(run) + of_tables
+  end subroutine make_forecast
+
+  !> Times at forecast%rate.
+  subroutine estimate_times(run, is_made, forecast)
+    type(run_t), intent(in) :: run
+    logical, intent(in) :: is_made
+    type(forecast_t), intent(inout) :: forecast
+    real(wp) :: factor, solve, product, tangent, contact, factors, passes
     call count_passes(run, factors, passes)
     associate (r => forecast%rate)
       factor = work_of(run%solver)/(r*merge(of_panels, of_factor, &
@@ -49,7 +63,7 @@ contains
     forecast%step = call_cost + passes*(solve + product + contact) + factors*(factor + &
         tangent) + energy_share(run)*1.5_wp*product
     forecast%whole = forecast%start + (run%plan%full_steps - run%state%cycle)*forecast%step
-  end subroutine make_forecast
+  end subroutine estimate_times
 
   !> Gflop of a solve: two operations for each number of the factor in each of two passes; of
   !> conjugate gradients those of a few iterations, twice where contact comes between.
