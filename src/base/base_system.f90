@@ -8,7 +8,8 @@ module base_system
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: make_folder, is_terminal, leave, exec_hdf5_program, peak_memory, machine_memory
+  public :: make_folder, is_terminal, leave, exec_hdf5_program, peak_memory, machine_memory, &
+      has_wide_vectors
 
   interface
     integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
@@ -152,5 +153,23 @@ contains
     end do
     close (unit)
   end function machine_memory
+
+  !> Does the processor compute with vectors of four numbers (AVX2 of x86-64)? No where the
+  !> system does not say.
+  logical function has_wide_vectors()
+    character(8192) :: line
+    integer :: unit, stat
+    has_wide_vectors = .false.
+    open (newunit=unit, file='/proc/cpuinfo', status='old', action='read', iostat=stat)
+    if (stat /= 0) return
+    do
+      read (unit, '(a)', iostat=stat) line
+      if (stat /= 0) exit
+      if (index(line, 'flags') /= 1) cycle
+      has_wide_vectors = index(line, ' avx2 ') > 0
+      exit
+    end do
+    close (unit)
+  end function has_wide_vectors
 
 end module base_system

@@ -10,12 +10,13 @@
 module linalg_cg
   use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, i8, zero, one, half
-  use base_status, only: status_t, fail, failed, status_numerical, status_deck
+  use base_status, only: status_t, fail, failed, status_deck
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_incomplete, only: incomplete_t, make_incomplete, factor_incomplete, &
       apply_incomplete, multiply
-  use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, demand_memory, lose_pivot, check_graph, &
+      check_matrix, check_vectors
   implicit none
   private
 
@@ -88,8 +89,7 @@ contains
     this%info%unconverged = 0
     call factor_incomplete(this%incomplete, this%matrix, lost)
     if (lost > 0) then
-      call fail(status, status_numerical, 'lost pivot at node index '//to_text(lost)// &
-          ': the effective matrix is not positive definite')
+      call lose_pivot(lost, status)
       return
     end if
     if (this%n_interface == 0) return

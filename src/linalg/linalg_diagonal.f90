@@ -5,10 +5,9 @@
 module linalg_diagonal
   use base_checks, only: checks_on, assert_shape
   use base_kinds, only: wp, i8, zero, one
-  use base_status, only: status_t, fail, status_numerical
-  use base_strings, only: to_text
+  use base_status, only: status_t
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, lose_pivot, check_graph, check_matrix, check_vectors
   implicit none
   private
 
@@ -57,9 +56,7 @@ contains
     do i = 1, this%n
       if (.not. all(matrix%diagonal(:, i) > zero .and. &
           matrix%diagonal(:, i) <= huge(zero))) then
-        call fail(status, status_numerical, 'lost pivot at node index '//to_text(i)// &
-            ': the effective matrix is not positive definite', &
-            hint='check mass and time step of the elements around it')
+        call lose_pivot(i, status)
         return
       end if
       this%inverse(:, i) = one/matrix%diagonal(:, i)

@@ -12,13 +12,13 @@
 module linalg_ldlt
   use base_checks, only: checks_on, assert
   use base_kinds, only: wp, i8, zero
-  use base_status, only: status_t, fail, failed, status_numerical
-  use base_strings, only: to_text
+  use base_status, only: status_t, failed
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_kernels_2, only: eliminate_2, invert_2, forward_2, forward_part_2, backward_2
   use linalg_kernels_3, only: eliminate_3, invert_3, forward_3, forward_part_3, backward_3
   use linalg_order, only: choose_order
-  use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, demand_memory, lose_pivot, check_graph, &
+      check_matrix, check_vectors
   use linalg_subtrees, only: subtrees_t, find_subtrees
   use linalg_symbolic, only: symbolic_factor, order_tree
   implicit none
@@ -149,9 +149,7 @@ contains
       call invert_pivot(this, k, matrix%value(:, :, &
           graph%position(this%order(k), this%order(k))), y(:, :, k), ok)
       if (.not. ok) then
-        call fail(status, status_numerical, 'lost pivot at node index '// &
-            to_text(this%order(k))//': the effective matrix is not positive definite', &
-            hint='check mass, stiffness and time step of the elements around it')
+        call lose_pivot(this%order(k), status)
         return
       end if
       y(:, :, k) = zero

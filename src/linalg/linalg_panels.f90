@@ -1,19 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Dense panels of a supernodal factor: a panel [A11; A21] holds some columns, lower triangle,
 !> and the rows below them; its factor is L11 L11' = A11, L21 = A21 L11'^-1, with 1/L on the
-!> diagonal. Products go by tiles that stay in the nearest cache, four columns of L at a time,
-!> which in plain Fortran is three times as fast as the BLAS of reference. A pass of a solve
-!> reads a panel once, with x of its own columns and y of the rows below. Large panels are split
-!> among threads by tiles of fixed size; every entry has the same sums for any number of them.
+!> diagonal. Products go by tiles, which in plain Fortran is more than half as fast as a tuned
+!> BLAS. A pass of a solve reads a panel once, with x of its own columns and y of the rows below.
+!> Large panels are split among threads by tiles of fixed size; every entry has the same sums for
+!> any number of threads and any width of vectors.
 module linalg_panels
   use base_kinds, only: wp, zero, one
+  use linalg_tile, only: subtract_tile, tile_rows, tile_columns
+  use linalg_tile_wide, only: subtract_tile_wide => subtract_tile
   implicit none
   private
   public :: eliminate_panel, forward_panel, backward_panel, forward_split, backward_split, &
       is_wide, gather_rows, add_rows, list_places, add_columns
 
-  !> A tile of L: so many rows and columns, 64 kB. Up to `narrow` columns are eliminated singly.
-  integer, parameter :: tile_rows = 128, tile_columns = 64, narrow = 8
+  !> Up to so many columns are eliminated singly.
+  integer, parameter :: narrow = 8
   !> Multiplications of a product, entries below a panel, that are worth more than one thread.
   real(wp), parameter :: much_product = 5.0e5_wp
   integer, parameter :: much_below = 30000
@@ -22,31 +24,33 @@ contains
 
   !> Factor of a panel, and update = update - L21 L21', lower triangle. lost: the column of a
   !> lost pivot, 0 = none.
-  subroutine eliminate_panel(width, height, threads, panel, update, lost)
+  subroutine eliminate_panel(width, height, threads, wide, panel, update, lost)
     integer, intent(in) :: width, height, threads
+    logical, intent(in) :: wide
     real(wp), intent(inout) :: panel(height, width)
     real(wp), intent(inout) :: update(height - width, height - width)
     integer, intent(out) :: lost
-    call factor_columns(width, height, height, threads, panel, lost)
+    call factor_columns(width, height, height, threads, wide, panel, lost)
     if (lost > 0 .or. width == height) return
-    call subtract_products(height - width, height - width, width, height, threads, &
+    call subtract_products(height - width, height - width, width, height, threads, wide, &
         panel(width + 1, 1), height - width, update)
   end subroutine eliminate_panel
 
   !> Factor of so many columns, by halves: the left one, its products taken from the right one.
-  recursive subroutine factor_columns(width, height, stride, threads, a, lost)
+  recursive subroutine factor_columns(width, height, stride, threads, wide, a, lost)
     integer, intent(in) :: width, height, stride, threads
+    logical, intent(in) :: wide
     real(wp), intent(inout) :: a(stride, *)
     integer, intent(out) :: lost
     integer :: half, j, k
     lost = 0
     if (width > narrow) then
       half = 4*(width/8)
-      call factor_columns(half, height, stride, threads, a, lost)
+      call factor_columns(half, height, stride, threads, wide, a, lost)
       if (lost > 0) return
-      call subtract_products(height - half, width - half, half, stride, threads, &
+      call subtract_products(height - half, width - half, half, stride, threads, wide, &
           a(half + 1, 1), stride, a(half + 1, half + 1))
-      call factor_columns(width - half, height - half, stride, threads, &
+      call factor_columns(width - half, height - half, stride, threads, wide, &
           a(half + 1, half + 1), lost)
       if (lost > 0) lost = lost + half
       return
@@ -65,112 +69,44 @@ contains
   end subroutine factor_columns
 
   !> c = c - L M', lower triangle: L has the m rows of c, M the first n of them, one for each
-  !> column of c; both have `columns` columns.
-  subroutine subtract_products(m, n, columns, stride, threads, l, stride_c, c)
+  !> column of c; both have `columns` columns. By tiles of c, each with all columns of L; an entry
+  !> of c gets its products one after another, so that its digits do not depend on tiles.
+  subroutine subtract_products(m, n, columns, stride, threads, wide, l, stride_c, c)
     integer, intent(in) :: m, n, columns, stride, threads, stride_c
-    real(wp), intent(in) :: l(stride, *)
-    real(wp), intent(inout) :: c(stride_c, *)
-    integer :: i, j, k, first, last, depth
-    if (threads > 1) then
-      if (real(m, wp)*n*columns > much_product) then
-        call subtract_tiles(m, n, columns, stride, threads, l, stride_c, c)
-        return
-      end if
-    end if
-    do k = 1, columns, tile_columns
-      depth = min(tile_columns, columns - k + 1)
-      do i = 1, m, tile_rows
-        last = min(i + tile_rows - 1, m)
-        do j = 1, min(last, n) - 1, 2
-          first = max(i, j)
-          call two_columns(last - first + 1, depth, stride, l(first, k), l(j, k), stride_c, &
-              c(first, j))
-        end do
-        if (mod(min(last, n), 2) == 0) cycle
-        j = min(last, n)
-        first = max(i, j)
-        call one_column(last - first + 1, depth, stride, l(first, k), l(j, k), c(first, j))
-      end do
-    end do
-  end subroutine subtract_products
-
-  !> The same by tiles of c, each with all columns of L. An entry of c gets its products in the
-  !> order of subtract_products, by the same pairs of columns.
-  subroutine subtract_tiles(m, n, columns, stride, threads, l, stride_c, c)
-    integer, intent(in) :: m, n, columns, stride, threads, stride_c
+    logical, intent(in) :: wide
     real(wp), intent(in) :: l(stride, *)
     real(wp), intent(inout) :: c(stride_c, *)
     integer :: tile, across, down
     across = (n - 1)/tile_columns + 1
     down = (m - 1)/tile_rows + 1
-    !$omp parallel do schedule(dynamic, 1) num_threads(threads)
-    do tile = across*down - 1, 0, -1
-      call one_tile(m, n, columns, stride, l, stride_c, c, tile_rows*(tile/across) + 1, &
-          tile_columns*mod(tile, across) + 1)
+    if (threads > 1) then
+      if (real(m, wp)*n*columns > much_product) then
+        !$omp parallel do schedule(dynamic, 1) num_threads(threads)
+        do tile = across*down - 1, 0, -1
+          call one_tile(wide, m, n, columns, stride, l, stride_c, c, &
+              tile_rows*(tile/across), tile_columns*mod(tile, across))
+        end do
+        return
+      end if
+    end if
+    do tile = 0, across*down - 1
+      call one_tile(wide, m, n, columns, stride, l, stride_c, c, &
+          tile_rows*(tile/across), tile_columns*mod(tile, across))
     end do
-  end subroutine subtract_tiles
+  end subroutine subtract_products
 
-  !> The tile of c from row i and column from (odd) on.
-  pure subroutine one_tile(m, n, columns, stride, l, stride_c, c, i, from)
-    integer, intent(in) :: m, n, columns, stride, stride_c, i, from
+  !> One tile, by the vectors of the processor.
+  pure subroutine one_tile(wide, m, n, columns, stride, l, stride_c, c, i0, j0)
+    logical, intent(in) :: wide
+    integer, intent(in) :: m, n, columns, stride, stride_c, i0, j0
     real(wp), intent(in) :: l(stride, *)
     real(wp), intent(inout) :: c(stride_c, *)
-    integer :: j, k, first, last, depth, end_j
-    last = min(i + tile_rows - 1, m)
-    end_j = min(from + tile_columns - 1, last, n)
-    do k = 1, columns, tile_columns
-      depth = min(tile_columns, columns - k + 1)
-      do j = from, end_j - 1, 2
-        first = max(i, j)
-        call two_columns(last - first + 1, depth, stride, l(first, k), l(j, k), stride_c, &
-            c(first, j))
-      end do
-      if (mod(end_j, 2) == 0 .or. end_j < from) cycle
-      first = max(i, end_j)
-      call one_column(last - first + 1, depth, stride, l(first, k), l(end_j, k), &
-          c(first, end_j))
-    end do
+    if (wide) then
+      call subtract_tile_wide(m, n, columns, stride, l, stride_c, c, i0, j0)
+    else
+      call subtract_tile(m, n, columns, stride, l, stride_c, c, i0, j0)
+    end if
   end subroutine one_tile
-
-  !> Two columns of c: c = c - L M', M two rows. (In the first row of a triangle the second
-  !> entry lies above the diagonal, where nothing is read.)
-  pure subroutine two_columns(m, columns, stride, l, row, stride_c, c)
-    integer, intent(in) :: m, columns, stride, stride_c
-    real(wp), intent(in) :: l(stride, *), row(stride, *)
-    real(wp), intent(inout) :: c(stride_c, *)
-    real(wp) :: p1, p2, p3, p4, q1, q2, q3, q4
-    integer :: i, k
-    do k = 1, columns - 3, 4
-      p1 = row(1, k)
-      p2 = row(1, k + 1)
-      p3 = row(1, k + 2)
-      p4 = row(1, k + 3)
-      q1 = row(2, k)
-      q2 = row(2, k + 1)
-      q3 = row(2, k + 2)
-      q4 = row(2, k + 3)
-      do i = 1, m
-        c(i, 1) = c(i, 1) - (l(i, k)*p1 + l(i, k + 1)*p2 + l(i, k + 2)*p3 + l(i, k + 3)*p4)
-        c(i, 2) = c(i, 2) - (l(i, k)*q1 + l(i, k + 1)*q2 + l(i, k + 2)*q3 + l(i, k + 3)*q4)
-      end do
-    end do
-    do k = columns - mod(columns, 4) + 1, columns
-      do i = 1, m
-        c(i, 1) = c(i, 1) - l(i, k)*row(1, k)
-        c(i, 2) = c(i, 2) - l(i, k)*row(2, k)
-      end do
-    end do
-  end subroutine two_columns
-
-  pure subroutine one_column(m, columns, stride, l, row, c)
-    integer, intent(in) :: m, columns, stride
-    real(wp), intent(in) :: l(stride, *), row(stride, *)
-    real(wp), intent(inout) :: c(m)
-    integer :: k
-    do k = 1, columns
-      c = c - l(:m, k)*row(1, k)
-    end do
-  end subroutine one_column
 
   !> x = L11^-1 x, y = -L21 x.
   pure subroutine forward_panel(width, below, l, x, y)

@@ -5,11 +5,10 @@
 module linalg_skyline
   use base_checks, only: checks_on
   use base_kinds, only: wp, i8, zero
-  use base_status, only: status_t, fail, failed, status_numerical
-  use base_strings, only: to_text
+  use base_status, only: status_t, failed
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_order, only: choose_order, order_names, order_rcm
-  use linalg_solver, only: solver_t, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, lose_pivot, check_graph, check_matrix, check_vectors
   implicit none
   private
 
@@ -99,9 +98,7 @@ contains
       call reduce_row(this, row)
       if (row > this%leading) cycle
       if (this%pivot(row) > zero .and. this%pivot(row) <= huge(zero)) cycle
-      call fail(status, status_numerical, 'lost pivot at node index '// &
-          to_text(this%order((row - 1)/this%d + 1))// &
-          ': the effective matrix is not positive definite')
+      call lose_pivot(this%order((row - 1)/this%d + 1), status)
       return
     end do
     call take_block(this)

@@ -9,7 +9,7 @@
 module linalg_solver
   use base_checks, only: checks_on, assert, assert_shape
   use base_kinds, only: wp, i8, zero
-  use base_status, only: status_t, fail, status_file
+  use base_status, only: status_t, fail, status_file, status_numerical
   use base_strings, only: to_text
   use base_system, only: machine_memory
   use linalg_graph, only: graph_t, block_matrix_t
@@ -39,6 +39,7 @@ module linalg_solver
     integer(i8) :: multiplications = 0_i8  !< per factorisation, in node blocks
     integer(i8) :: factor_bytes = 0_i8
     integer :: null_pivots = 0
+    logical :: wide = .false.              !< products by vectors of four numbers
     integer(i8) :: iterations = 0_i8       !< of all solves so far, where an engine iterates
     integer :: unconverged = 0             !< solves since the factor that did not get there
   end type solver_info_t
@@ -97,7 +98,7 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole, work_of, inverse_bytes, demand_memory, check_graph, check_matrix, &
+  public :: solve_whole, work_of, inverse_bytes, lose_pivot, demand_memory, check_graph, check_matrix, &
       check_vectors
 
 contains
@@ -166,6 +167,15 @@ contains
     class(solver_t), intent(in) :: solver
     inverse_bytes = solver%schur%bytes()
   end function inverse_bytes
+
+  !> What an engine reports of a pivot that is not positive, or no number: index of the node.
+  subroutine lose_pivot(node, status)
+    integer, intent(in) :: node
+    type(status_t), intent(inout) :: status
+    call fail(status, status_numerical, 'lost pivot at node index '//to_text(node)// &
+        ': the effective matrix is not positive definite', &
+        hint='check mass, stiffness and time step of the elements around it')
+  end subroutine lose_pivot
 
   !> Before anything is allocated: do the factor, of factor_bytes, and the inverse of the
   !> contact block fit into the memory of the machine? Fails where they do not.

@@ -8,13 +8,14 @@
 module linalg_supernodal
   use base_checks, only: checks_on
   use base_kinds, only: wp, i8, zero, one
-  use base_status, only: status_t, fail, failed, status_numerical
-  use base_strings, only: to_text
+  use base_status, only: status_t, failed
+  use base_system, only: has_wide_vectors
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_order, only: choose_order
   use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, forward_split, &
       backward_split, is_wide, gather_rows, add_rows, list_places, add_columns
-  use linalg_solver, only: solver_t, demand_memory, check_graph, check_matrix, check_vectors
+  use linalg_solver, only: solver_t, demand_memory, lose_pivot, check_graph, &
+      check_matrix, check_vectors
   use linalg_subtrees, only: subtrees_t, find_subtrees
   use linalg_supernodes, only: supernodes_t, find_supernodes, find_parents
   implicit none
@@ -42,6 +43,9 @@ module linalg_supernodal
     procedure :: forward => supernodal_forward
     procedure :: backward => supernodal_backward
   end type supernodal_t
+
+  !> Multiplications of blocks worth asking for the vectors of the processor.
+  integer(i8), parameter :: worth_wide = 100000_i8
 
   !> What a supernode changes in the rows below it, lower triangle, until its parent takes it.
   type :: update_t
@@ -85,6 +89,8 @@ contains
         + this%schur%bytes()
     call demand_memory(this, status)
     if (failed(status)) return
+    this%info%wide = .false.
+    if (this%info%multiplications > worth_wide) this%info%wide = has_wide_vectors()
     if (this%options%threads > 1) call divide(this)
     allocate (this%l(this%panel(this%supernodes%n + 1) - 1_i8), this%work(d, graph%n), &
         this%y(highest, max(1, this%parts%n)))
@@ -196,19 +202,11 @@ contains
       allocate (update(s)%a(height - width, height - width), source=zero)
       call take_children(this, s, width, height, place, update)
       call eliminate_panel(width, height, merge(this%options%threads, 1, &
-          part == 0 .and. this%parts%n > 0), &
+          part == 0 .and. this%parts%n > 0), this%info%wide, &
           this%l(this%panel(s)), update(s)%a, lost(s))
       if (lost(s) > 0) return
     end do
   end subroutine factor_range
-
-  subroutine lose_pivot(node, status)
-    integer, intent(in) :: node
-    type(status_t), intent(inout) :: status
-    call fail(status, status_numerical, 'lost pivot at node index '//to_text(node)// &
-        ': the effective matrix is not positive definite', &
-        hint='check mass, stiffness and time step of the elements around it')
-  end subroutine lose_pivot
 
   !> The scale: a power of two, so that other units by powers of two change no digit of L.
   subroutine take_scale(this, graph, matrix, status)

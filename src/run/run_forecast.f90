@@ -13,7 +13,7 @@ module run_forecast
   implicit none
   private
 
-  public :: make_forecast, write_forecast, write_comparison
+  public :: make_forecast, count_passes, write_forecast, write_comparison
 
   !> Shares of the measured rate that kinds of work reach, from runs of 1e2 to 1e6 dofs
   !> (bench/forecast.py).
@@ -100,7 +100,7 @@ contains
     end do
   end function measured_rate
 
-  !> Factors and solves of a step.
+  !> Factors and solves of a step, about.
   subroutine count_passes(run, factors, passes)
     type(run_t), intent(in) :: run
     real(wp), intent(out) :: factors, passes

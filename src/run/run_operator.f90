@@ -4,7 +4,7 @@
 module run_operator
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use assembly_system, only: effective_matrix, diagonal_matrix
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, two
   use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
@@ -17,6 +17,7 @@ module run_operator
   use linalg_registry, only: make_solver, engine_diagonal
   use linalg_solver, only: solver_t, solver_options_t, work_of
   use run_data, only: run_t, operator_t
+  use run_forecast, only: count_passes
   use run_motion, only: find_smooth_reactions
   use run_rigid, only: link_interface, keep_flexibility
   use run_storage, only: choose_storage
@@ -280,8 +281,8 @@ contains
   end subroutine fill_local
 
   !> Order and storage of the factor. Where the deck leaves the engine open and the work is that
-  !> of a large body, dense panels take half the time in space (doc/performance.md), and no
-  !> factor at all less yet where it would be a new one in each step; neither knows null pivots.
+  !> of a large body, dense panels may take less time, and no factor at all less yet where it
+  !> would be a new one in each step; neither knows null pivots.
   subroutine analyse_matrix(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
@@ -295,7 +296,7 @@ contains
     if (work_of(run%solver) < much_work) return
     if (suits_iteration(run)) then
       options%engine = 'CG'
-    else if (run%system%dim == 3) then
+    else if (suits_panels(run)) then
       options%engine = 'SUPERNODAL'
     else
       return
@@ -304,24 +305,43 @@ contains
     call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
   end subroutine analyse_matrix
 
+  !> Do dense panels save more in the factors of the run than they lose in its solves? In the
+  !> plane, where panels are small, a factor takes .14 s less for each Gflop and a solve .016 ms
+  !> more for each MB of the factor; in space both take less (doc/performance.md).
+  logical function suits_panels(run)
+    type(run_t), intent(in) :: run
+    real(wp), parameter :: saved = 0.14_wp, lost = 1.6e-11_wp     ! [s] of a Gflop, of a byte
+    real(wp) :: factors, passes, steps
+    suits_panels = run%system%dim == 3
+    if (suits_panels) return
+    call count_passes(run, factors, passes)
+    steps = real(max(1, run%plan%full_steps), wp)    ! also of a run that was restarted
+    suits_panels = max(one, steps*factors)*saved*work_of(run%solver) > &
+        steps*passes*lost*run%solver%info%factor_bytes
+  end function suits_panels
+
   !> Is a factor in each step dearer than conjugate gradients with a solve for each contact dof?
   !> Where the mass makes a good part of the diagonal (steps of three crossing times of an
   !> element or less) these take about 4/sqrt(share) iterations, whatever the mesh. Rates in
-  !> Gflop/s are those of one core with the reference BLAS (doc/performance.md).
+  !> Gflop/s are those of one core (bench/refactoring.py): of a factor in panels, of its solve,
+  !> of an iteration.
   logical function suits_iteration(run)
     type(run_t), intent(in) :: run
-    real(wp), parameter :: least_share = 0.05_wp, rate_factor = 2.5_wp, rate_iteration = 0.8_wp
-    real(wp), parameter :: passes = 5.0_wp, clear = 0.8_wp
-    real(wp) :: direct, each, share
+    real(wp), parameter :: rate_factor = 12.0_wp, rate_solve = 2.0_wp, rate_iteration = 1.4_wp
+    real(wp), parameter :: least_share = 0.05_wp, passes = 5.0_wp, clear = 0.9_wp
+    real(wp) :: direct, each, share, solves
     suits_iteration = .false.
     if (.not. allocated(run%newton) .or. run%step%is_static .or. allocated(run%shift) .or. &
         .not. allocated(run%matrix%value)) return
     share = mass_share(run)
     if (share < least_share) return
     associate (info => run%solver%info, d => run%system%dim)
-      direct = (work_of(run%solver) + passes*0.5e-9_wp*info%factor_bytes)/rate_factor
+      direct = work_of(run%solver)/rate_factor &
+          + passes*0.5e-9_wp*info%factor_bytes/rate_solve
       each = 4.0_wp/sqrt(share)*8.0e-9_wp*d**2*size(run%system%graph%column)/rate_iteration
-      suits_iteration = (d*size(kept_nodes(run)) + 2.0_wp*passes)*each < clear*direct
+      solves = passes
+      if (size(kept_nodes(run)) > 0) solves = two*passes + d*size(kept_nodes(run))
+      suits_iteration = solves*each < clear*direct
     end associate
   end function suits_iteration
 
