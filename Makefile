@@ -234,8 +234,8 @@ $(B)/openmp: FORCE
 	@echo '$(OPENMP)' >$@.new
 	@$(refresh)
 
-# Products of panels: -O3 of GCC shuffles the numbers of a tile about, which halves the rate. The
-# wide tile is called where the processor has its vectors, by linalg_panels.
+# Products of panels: -O3 of GCC shuffles the numbers of a block about, which halves the rate. The
+# wide one is called where the processor has its vectors, by linalg_panels.
 tiles := src/linalg/linalg_tile.f90 src/linalg/linalg_tile_wide.f90
 ifeq ($(FLAVOUR),release)
 tile_flags := -O2 -ftree-loop-vectorize -fno-tree-slp-vectorize -fvect-cost-model=dynamic

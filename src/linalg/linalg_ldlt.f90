@@ -16,7 +16,6 @@ module linalg_ldlt
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_kernels_2, only: eliminate_2, invert_2, forward_2, forward_part_2, backward_2
   use linalg_kernels_3, only: eliminate_3, invert_3, forward_3, forward_part_3, backward_3
-  use linalg_order, only: choose_order
   use linalg_solver, only: solver_t, demand_memory, lose_pivot, check_graph, &
       check_matrix, check_vectors
   use linalg_subtrees, only: subtrees_t, find_subtrees
@@ -60,8 +59,7 @@ contains
     this%d = d
     this%n_interface = size(last)
     this%leading = graph%n - size(last)
-    call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
-        this%info%multiplications, status)
+    call this%find_order(graph, last, trim(this%options%order), status)
     if (failed(status)) return
     if (allocated(this%parent)) &
         deallocate (this%parent, this%first, this%row, this%l, this%d_inverse, this%work)

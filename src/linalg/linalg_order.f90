@@ -17,8 +17,8 @@ module linalg_order
       'METIS']
 
   !> Below this many multiplications METIS is not asked: its own run would cost more than it
-  !> saves.
-  integer(i8), parameter :: metis_threshold = 2000000_i8
+  !> saves. Nor below so many of each node, which are those of a strip.
+  integer(i8), parameter :: metis_threshold = 2000000_i8, strip = 10_i8
 
   interface
     integer(c_int) function metis_node_nd(nvtxs, xadj, adjncy, vwgt, options, perm, &
@@ -55,7 +55,8 @@ contains
     n = size(leading)
     do k = 1, size(order_names)
       if (wanted /= 'AUTO' .and. wanted /= order_names(k)) cycle
-      if (wanted == 'AUTO' .and. k == order_metis .and. flops < metis_threshold) exit
+      if (wanted == 'AUTO' .and. k == order_metis .and. flops < max(metis_threshold, &
+          strip*n)) exit
       allocate (trial(graph%n))
       call one_order(graph, leading, last, k, trial(:n), status)
       if (failed(status)) return

@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Dense panels of a supernodal factor: a panel [A11; A21] holds some columns, lower triangle,
 !> and the rows below them; its factor is L11 L11' = A11, L21 = A21 L11'^-1, with 1/L on the
-!> diagonal. Products go by tiles, which in plain Fortran is more than half as fast as a tuned
+!> diagonal. Products go by strips of rows, which in plain Fortran is more than half as fast as a tuned
 !> BLAS. A pass of a solve reads a panel once, with x of its own columns and y of the rows below.
-!> Large panels are split among threads by tiles of fixed size; every entry has the same sums for
+!> Large panels are split among threads by strips of fixed size; every entry has the same sums for
 !> any number of threads and any width of vectors.
 module linalg_panels
   use base_kinds, only: wp, zero, one
-  use linalg_tile, only: subtract_tile, tile_rows, tile_columns
-  use linalg_tile_wide, only: subtract_tile_wide => subtract_tile
+  use linalg_tile, only: subtract_strip, strip_rows
+  use linalg_tile_wide, only: subtract_strip_wide => subtract_strip
   implicit none
   private
   public :: eliminate_panel, forward_panel, backward_panel, forward_split, backward_split, &
@@ -69,44 +69,40 @@ contains
   end subroutine factor_columns
 
   !> c = c - L M', lower triangle: L has the m rows of c, M the first n of them, one for each
-  !> column of c; both have `columns` columns. By tiles of c, each with all columns of L; an entry
-  !> of c gets its products one after another, so that its digits do not depend on tiles.
+  !> column of c; both have `columns` columns. By strips of rows, the longest first.
   subroutine subtract_products(m, n, columns, stride, threads, wide, l, stride_c, c)
     integer, intent(in) :: m, n, columns, stride, threads, stride_c
     logical, intent(in) :: wide
     real(wp), intent(in) :: l(stride, *)
     real(wp), intent(inout) :: c(stride_c, *)
-    integer :: tile, across, down
-    across = (n - 1)/tile_columns + 1
-    down = (m - 1)/tile_rows + 1
+    integer :: strip, strips
+    strips = (m - 1)/strip_rows + 1
     if (threads > 1) then
       if (real(m, wp)*n*columns > much_product) then
         !$omp parallel do schedule(dynamic, 1) num_threads(threads)
-        do tile = across*down - 1, 0, -1
-          call one_tile(wide, m, n, columns, stride, l, stride_c, c, &
-              tile_rows*(tile/across), tile_columns*mod(tile, across))
+        do strip = strips - 1, 0, -1
+          call one_strip(wide, m, n, columns, stride, l, stride_c, c, strip_rows*strip)
         end do
         return
       end if
     end if
-    do tile = 0, across*down - 1
-      call one_tile(wide, m, n, columns, stride, l, stride_c, c, &
-          tile_rows*(tile/across), tile_columns*mod(tile, across))
+    do strip = 0, strips - 1
+      call one_strip(wide, m, n, columns, stride, l, stride_c, c, strip_rows*strip)
     end do
   end subroutine subtract_products
 
-  !> One tile, by the vectors of the processor.
-  pure subroutine one_tile(wide, m, n, columns, stride, l, stride_c, c, i0, j0)
+  !> One strip, by the vectors of the processor.
+  pure subroutine one_strip(wide, m, n, columns, stride, l, stride_c, c, i0)
     logical, intent(in) :: wide
-    integer, intent(in) :: m, n, columns, stride, stride_c, i0, j0
+    integer, intent(in) :: m, n, columns, stride, stride_c, i0
     real(wp), intent(in) :: l(stride, *)
     real(wp), intent(inout) :: c(stride_c, *)
     if (wide) then
-      call subtract_tile_wide(m, n, columns, stride, l, stride_c, c, i0, j0)
+      call subtract_strip_wide(m, n, columns, stride, l, stride_c, c, i0)
     else
-      call subtract_tile(m, n, columns, stride, l, stride_c, c, i0, j0)
+      call subtract_strip(m, n, columns, stride, l, stride_c, c, i0)
     end if
-  end subroutine one_tile
+  end subroutine one_strip
 
   !> x = L11^-1 x, y = -L21 x.
   pure subroutine forward_panel(width, below, l, x, y)
@@ -124,7 +120,7 @@ contains
     is_wide = real(width, wp)*below > much_below
   end function is_wide
 
-  !> forward_panel with the rows below by tiles, after the columns.
+  !> forward_panel with the rows below by strips, after the columns.
   subroutine forward_split(width, below, threads, l, x, y)
     integer, intent(in) :: width, below, threads
     real(wp), intent(in) :: l(width + below, width)
@@ -133,8 +129,8 @@ contains
     integer :: i
     call forward_columns(width, below, l, x)
     !$omp parallel do schedule(dynamic, 1) num_threads(threads)
-    do i = 1, below, tile_rows
-      call forward_tile(min(tile_rows, below - i + 1), width, width + below, &
+    do i = 1, below, strip_rows
+      call forward_tile(min(strip_rows, below - i + 1), width, width + below, &
           l(width + i, 1), x, y(i))
     end do
   end subroutine forward_split

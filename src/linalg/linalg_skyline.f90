@@ -7,7 +7,7 @@ module linalg_skyline
   use base_kinds, only: wp, i8, zero
   use base_status, only: status_t, failed
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_order, only: choose_order, order_names, order_rcm
+  use linalg_order, only: order_names, order_rcm
   use linalg_solver, only: solver_t, lose_pivot, check_graph, check_matrix, check_vectors
   implicit none
   private
@@ -46,8 +46,7 @@ contains
     this%d = d
     this%n_interface = size(last)
     this%leading = d*(graph%n - size(last))
-    call choose_order(graph, last, wanted, this%order, this%info%order, &
-        this%info%multiplications, status)
+    call this%find_order(graph, last, wanted, status)
     if (failed(status)) return
     this%new = this%order
     this%new(this%order) = [(k, k=1, graph%n)]

@@ -14,6 +14,7 @@ module linalg_solver
   use base_system, only: machine_memory
   use linalg_graph, only: graph_t, block_matrix_t
   use linalg_bodies, only: schur_t
+  use linalg_order, only: choose_order
   implicit none
   private
 
@@ -52,11 +53,14 @@ module linalg_solver
     integer :: n_interface = 0
     logical :: takes_diagonal = .false.   !< `diagonal` of a matrix, and no other matrix
     integer, allocatable :: order(:)  !< (n) new -> old
+    logical :: has_order = .false.    !< order is known before analyse, which takes it
     type(schur_t) :: schur            !< Schur complement S of the last nodes, by bodies
   contains
     procedure(analyse_i), deferred :: analyse
     procedure(factor_i), deferred :: factor
     procedure(forward_i), deferred :: forward
+    procedure :: take_order
+    procedure :: find_order
     procedure :: solve_schur
     procedure :: flexibility
     procedure :: body_flexibility
@@ -98,10 +102,34 @@ module linalg_solver
     end subroutine backward_i
   end interface
 
-  public :: solve_whole, work_of, inverse_bytes, lose_pivot, demand_memory, check_graph, check_matrix, &
-      check_vectors
+  public :: solve_whole, gigaflops, work_of, inverse_bytes, lose_pivot, demand_memory, &
+      check_graph, check_matrix, check_vectors
 
 contains
+
+  !> An order (new -> old) for the analysis to come, its name and multiplications of blocks.
+  subroutine take_order(this, order, name, multiplications)
+    class(solver_t), intent(inout) :: this
+    integer, intent(in) :: order(:)
+    character(*), intent(in) :: name
+    integer(i8), intent(in) :: multiplications
+    this%order = order
+    this%info%order = name
+    this%info%multiplications = multiplications
+    this%has_order = .true.
+  end subroutine take_order
+
+  !> The order of an analysis: the one that was given for it, or the wanted one.
+  subroutine find_order(this, graph, last, wanted, status)
+    class(solver_t), intent(inout) :: this
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: last(:)
+    character(*), intent(in) :: wanted
+    type(status_t), intent(inout) :: status
+    if (.not. this%has_order) call choose_order(graph, last, wanted, this%order, &
+        this%info%order, this%info%multiplications, status)
+    this%has_order = .false.
+  end subroutine find_order
 
   !> x_interface = S^-1 x_interface, x_interface (d, m).
   subroutine solve_schur(this, x_interface)
@@ -155,10 +183,17 @@ contains
     call solver%backward(x_interface, x)
   end subroutine solve_whole
 
-  !> Gflop of a factorisation, multiplications and additions.
+  !> Gflop of so many multiplications of blocks of d x d, and their additions.
+  pure real(wp) function gigaflops(d, multiplications)
+    integer, intent(in) :: d
+    integer(i8), intent(in) :: multiplications
+    gigaflops = 2.0e-9_wp*d**3*real(multiplications, wp)
+  end function gigaflops
+
+  !> Gflop of a factorisation.
   pure real(wp) function work_of(solver)
     class(solver_t), intent(in) :: solver
-    work_of = 2.0e-9_wp*solver%d**3*real(solver%info%multiplications, wp)
+    work_of = gigaflops(solver%d, solver%info%multiplications)
   end function work_of
 
   !> Bytes of the inverse of the contact block, body by body, which stands beside the factor.

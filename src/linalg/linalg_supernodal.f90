@@ -11,7 +11,6 @@ module linalg_supernodal
   use base_status, only: status_t, failed
   use base_system, only: has_wide_vectors
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_order, only: choose_order
   use linalg_panels, only: eliminate_panel, forward_panel, backward_panel, forward_split, &
       backward_split, is_wide, gather_rows, add_rows, list_places, add_columns
   use linalg_solver, only: solver_t, demand_memory, lose_pivot, check_graph, &
@@ -67,8 +66,7 @@ contains
     this%d = d
     this%n_interface = size(last)
     this%leading = graph%n - size(last)
-    call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
-        this%info%multiplications, status)
+    call this%find_order(graph, last, trim(this%options%order), status)
     if (failed(status)) return
     call this%schur%plan(graph, d, last)
     call find_supernodes(graph, this%leading, d, this%order, this%supernodes)

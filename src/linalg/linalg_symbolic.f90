@@ -6,7 +6,7 @@ module linalg_symbolic
   use linalg_graph, only: graph_t
   implicit none
   private
-  public :: symbolic_factor, count_factor, order_tree
+  public :: symbolic_factor, count_factor, factor_entries, order_tree
 
 contains
 
@@ -44,6 +44,17 @@ contains
       count_factor = count_factor + int(rows(k), i8)*int(rows(k) + 3, i8)/2_i8
     end do
   end function count_factor
+
+  !> Blocks below the pivots of the factor of an order.
+  pure integer(i8) function factor_entries(graph, order, leading)
+    type(graph_t), intent(in) :: graph
+    integer, intent(in) :: order(:)
+    integer, intent(in) :: leading
+    integer, allocatable :: parent(:), rows(:)
+    allocate (parent(graph%n), rows(graph%n))
+    call symbolic_factor(graph, order, leading, parent, rows)
+    factor_entries = sum(int(rows(:leading), i8))
+  end function factor_entries
 
   !> parent(i) = the first row below pivot i (Liu 1990): row k joins the trees of its entries.
   !> The way up to the root is shortened each time it is gone.

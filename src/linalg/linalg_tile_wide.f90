@@ -1,16 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The tile of linalg_tile for processors with vectors of four numbers, which the Makefile
+!> The strip of linalg_tile for processors with vectors of four numbers, which the Makefile
 !> compiles this file for (without fused products): the same digits, twice as fast.
 module linalg_tile_wide
   use base_kinds, only: wp, zero
   implicit none
   private
-  public :: subtract_tile
+  public :: subtract_strip
 
-  !> A tile: so many rows and columns, with so many columns of L at a time, which packed are
-  !> 128 kB; the block of it that stays in registers.
-  integer, parameter :: tile_rows = 64, tile_columns = 64, tile_depth = 128
-  integer, parameter :: tall = 8, four = 4, five = 5
+  !> A strip: so many rows, by tiles of so many columns, with so many columns of L at a time,
+  !> which packed are 128 kB; the block of it that stays in registers.
+  integer, parameter :: strip_rows = 64, strip_columns = 64, depth_at_once = 128
+  integer, parameter :: tall = 8, three = 3, four = 4, five = 5, seven = 7
 
 contains
 

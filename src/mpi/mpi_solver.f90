@@ -9,7 +9,6 @@ module mpi_solver
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
   use linalg_graph, only: graph_t, block_matrix_t
-  use linalg_order, only: choose_order
   use linalg_solver, only: solver_t, check_graph, check_vectors
   use mpi_domain, only: domain_t
   use mpi_engine, only: engine_t, open_engine, close_engine, analyse_engine, factor_engine, &
@@ -48,8 +47,7 @@ contains
     this%n = graph%n
     this%d = d
     this%n_interface = size(last)
-    call choose_order(graph, last, trim(this%options%order), this%order, this%info%order, &
-        this%info%multiplications, status)
+    call this%find_order(graph, last, trim(this%options%order), status)
     if (failed(status)) return
     call this%schur%plan_whole(d, size(last))
     allocate (this%schur%block(this%schur%bodies))

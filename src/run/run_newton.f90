@@ -19,7 +19,8 @@ module run_newton
   use material_base, only: has_value, plane_stress
   use run_damping, only: subtract_damping
   use run_data, only: run_t
-  use run_operator, only: factor_matrix, kept_nodes
+  use run_engine, only: kept_nodes
+  use run_operator, only: factor_matrix
   use run_motion, only: find_given
   use run_static, only: add_shift
   use solid_block, only: force_rule_t, force_ends, force_middle

@@ -4,7 +4,7 @@
 module run_operator
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use assembly_system, only: effective_matrix, diagonal_matrix
-  use base_kinds, only: wp, zero, one, two
+  use base_kinds, only: wp, zero, one
   use base_messages, only: add_message
   use base_status, only: status_t, fail, failed, status_numerical
   use base_strings, only: to_text
@@ -15,16 +15,16 @@ module run_operator
   use linalg_graph, only: block_matrix_t
   use linalg_near, only: find_near, fill_near, fill_near_diagonal, move_near
   use linalg_registry, only: make_solver, engine_diagonal
-  use linalg_solver, only: solver_t, solver_options_t, work_of
+  use linalg_solver, only: solver_t, solver_options_t
   use run_data, only: run_t, operator_t
-  use run_forecast, only: count_passes
+  use run_engine, only: analyse_matrix, kept_nodes
   use run_motion, only: find_smooth_reactions
   use run_rigid, only: link_interface, keep_flexibility
   use run_storage, only: choose_storage
   implicit none
   private
   public :: make_operators, change_operators, factor_matrix, renew_matrix, size_factor, &
-      use_operator, kept_nodes
+      use_operator
 
 contains
 
@@ -279,100 +279,6 @@ contains
     end associate
     if (.not. failed(status)) call constrain_interface(run%contact, run%system%fixed_list)
   end subroutine fill_local
-
-  !> Order and storage of the factor. Where the deck leaves the engine open and the work is that
-  !> of a large body, dense panels may take less time, and no factor at all less yet where it
-  !> would be a new one in each step; neither knows null pivots.
-  subroutine analyse_matrix(run, status)
-    type(run_t), intent(inout) :: run
-    type(status_t), intent(inout) :: status
-    type(solver_options_t) :: options
-    real(wp), parameter :: much_work = 0.1_wp    ! Gflop
-    call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
-    options = run%solver_options
-    if (associated(run%team)) return
-    if (failed(status) .or. options%engine /= 'AUTO' .or. run%solver%takes_diagonal .or. &
-        options%null_pivot > zero .or. run%solver%info%engine /= 'LDLT') return
-    if (work_of(run%solver) < much_work) return
-    if (suits_iteration(run)) then
-      options%engine = 'CG'
-    else if (suits_panels(run)) then
-      options%engine = 'SUPERNODAL'
-    else
-      return
-    end if
-    call make_solver(options, run%solver, status)
-    call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
-  end subroutine analyse_matrix
-
-  !> Do dense panels save more in the factors of the run than they lose in its solves? In the
-  !> plane, where panels are small, a factor takes .14 s less for each Gflop and a solve .016 ms
-  !> more for each MB of the factor; in space both take less (doc/performance.md).
-  logical function suits_panels(run)
-    type(run_t), intent(in) :: run
-    real(wp), parameter :: saved = 0.14_wp, lost = 1.6e-11_wp     ! [s] of a Gflop, of a byte
-    real(wp) :: factors, passes, steps
-    suits_panels = run%system%dim == 3
-    if (suits_panels) return
-    call count_passes(run, factors, passes)
-    steps = real(max(1, run%plan%full_steps), wp)    ! also of a run that was restarted
-    suits_panels = max(one, steps*factors)*saved*work_of(run%solver) > &
-        steps*passes*lost*run%solver%info%factor_bytes
-  end function suits_panels
-
-  !> Is a factor in each step dearer than conjugate gradients with a solve for each contact dof?
-  !> Where the mass makes a good part of the diagonal (steps of three crossing times of an
-  !> element or less) these take about 4/sqrt(share) iterations, whatever the mesh. Rates in
-  !> Gflop/s are those of one core (bench/refactoring.py): of a factor in panels, of its solve,
-  !> of an iteration.
-  logical function suits_iteration(run)
-    type(run_t), intent(in) :: run
-    real(wp), parameter :: rate_factor = 12.0_wp, rate_solve = 2.0_wp, rate_iteration = 1.4_wp
-    real(wp), parameter :: least_share = 0.05_wp, passes = 5.0_wp, clear = 0.9_wp
-    real(wp) :: direct, each, share, solves
-    suits_iteration = .false.
-    if (.not. allocated(run%newton) .or. run%step%is_static .or. allocated(run%shift) .or. &
-        .not. allocated(run%matrix%value)) return
-    share = mass_share(run)
-    if (share < least_share) return
-    associate (info => run%solver%info, d => run%system%dim)
-      direct = work_of(run%solver)/rate_factor &
-          + passes*0.5e-9_wp*info%factor_bytes/rate_solve
-      each = 4.0_wp/sqrt(share)*8.0e-9_wp*d**2*size(run%system%graph%column)/rate_iteration
-      solves = passes
-      if (size(kept_nodes(run)) > 0) solves = two*passes + d*size(kept_nodes(run))
-      suits_iteration = solves*each < clear*direct
-    end associate
-  end function suits_iteration
-
-  !> The least share that the mass has of a diagonal entry of the matrix; 1 where dofs are held.
-  real(wp) function mass_share(run)
-    type(run_t), intent(in) :: run
-    integer :: i, c, at
-    mass_share = one
-    associate (g => run%system%graph, c_m => run%scheme%stage(1)%c_m)
-      do i = 1, run%system%n
-        at = g%position(i, i)
-        do c = 1, run%system%dim
-          if (run%model%fixed(c, i)) cycle
-          mass_share = min(mass_share, c_m*run%system%mass(at)/run%matrix%value(c, c, at))
-        end do
-      end do
-    end associate
-  end function mass_share
-
-  !> The nodes that come last in the elimination.
-  pure function kept_nodes(run) result(list)
-    type(run_t), intent(in) :: run
-    integer, allocatable :: list(:)
-    if (allocated(run%contact%local)) then
-      list = [integer ::]
-    else if (allocated(run%rigid)) then
-      list = run%rigid%solver_node
-    else
-      list = run%contact%interface_node
-    end if
-  end function kept_nodes
 
   !> m dofs. Nodes of rigid parts couple whatever they touch.
   subroutine size_one_body(m, schur_inverse)
