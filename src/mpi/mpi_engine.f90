@@ -50,7 +50,7 @@ contains
       m%icntl(8) = 0                    ! no scaling
       m%icntl(10) = 0
       m%icntl(13) = 1                   ! its root by itself: pivots are counted
-      m%icntl(14) = 10                  ! per cent of work space beyond the estimate
+      m%icntl(14) = 3                  ! per cent of work space beyond the estimate
       m%icntl(18) = 3                   ! each rank has its entries
       m%icntl(28) = 1
       m%keep(39) = records              ! in a message of entries: else it takes 160 000

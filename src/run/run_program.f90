@@ -72,7 +72,7 @@ contains
     end if
     if (failed(status)) write (error_unit, '(a)') 'bipact: '//status_text(status)
     deallocate (run)
-    if (present(team)) call team%dismiss(status%code)
+    if (present(team)) call team%dismiss()
     call leave(status%code)
   end subroutine run_deck
 
