@@ -30,6 +30,7 @@ MPI_FLAGS ?= $(shell $(MPIFC) --showme:compile 2>/dev/null)
 MPI_LIBS ?= $(addprefix -l,dmumps mumps_common pord metis lapack blas) $(shell $(MPIFC) --showme:link 2>/dev/null)
 has-mpi := $(if $(HDF5_MODULES),$(if $(MUMPS_INCLUDE),$(if $(shell command -v $(MPIFC) 2>/dev/null),1)))
 Q := $(if $(V),,@)
+comma := ,
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -272,11 +273,14 @@ $(FCLIB_BIN) $(STORE_BIN):
 	$(Q)$(FC) $(flags) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS) $(OPENMP_LIBS) $(HDF5_LIBS) \
 	  || { echo 'Linking failed. If HDF5 was not found: run "make deps".' >&2; exit 1; }
 
-# The libraries of MPI and MUMPS are shared, and so is that of Fortran then.
+# The libraries of MPI and MUMPS are shared, and so is that of Fortran then. Our own calls go to
+# the archives of LAPACK and BLAS as those of the serial program do, whatever MUMPS is given.
+own-lapack := $(foreach lib,lapack blas,$(call archive,$(lib)))
+own-lapack := $(if $(own-lapack),-Wl$(comma)--exclude-libs$(comma)liblapack.a:libblas.a $(own-lapack))
 $(MPI_BIN): $(call object,$(mpi) $(filter-out %_main.f90,$(store)) $(hdf5)) $(LIB) $(B)/flags
 	@mkdir -p $(@D)
 	@echo "  LINK $@"
-	$(Q)$(FC) $(flags) $(filter-out -static-libgfortran,$(LDFLAGS)) -o $@ $(filter %.o %.a,$^) $(HDF5_LIBS) $(MPI_LIBS) $(OPENMP_LIBS) \
+	$(Q)$(FC) $(flags) $(filter-out -static-libgfortran,$(LDFLAGS)) -o $@ $(filter %.o %.a,$^) $(HDF5_LIBS) $(own-lapack) $(MPI_LIBS) $(OPENMP_LIBS) \
 	  || { echo 'Linking failed. If MPI or MUMPS was not found: run "make deps".' >&2; exit 1; }
 
 test-programs: $(programs)

@@ -32,7 +32,7 @@ contains
       end associate
     end do
     associate (c => system%damping)
-      do d = 1, model%dim
+      do d = 1, size(c%mass, 1)
         call assemble_mass(model, system%graph, c%first, c%target, &
             weight(:, d), mass)
         if (system%mass_is_diagonal) then
@@ -115,7 +115,13 @@ contains
       d = size(f)
       row = zero
       if (system%mass_is_diagonal) then
-        row(:d) = mass(:, i)*v(:, i)
+        do k = 1, d
+          row(k) = mass(min(k, size(mass, 1)), i)*v(k, i)
+        end do
+      else if (size(mass, 1) == 1) then
+        do k = graph%first(i), graph%first(i + 1) - 1
+          row(:d) = row(:d) + mass(1, k)*v(:, graph%column(k))
+        end do
       else
         do k = graph%first(i), graph%first(i + 1) - 1
           row(:d) = row(:d) + mass(:, k)*v(:, graph%column(k))

@@ -20,9 +20,10 @@ module assembly_forces
 
 contains
 
+  !> (Recursive: the first of several ranks comes back here with its own elements.)
   !> f = f - factor * K u, element by element; u, f (dim, n). At finite deformation the force at
   !> the displacements u takes the place of K u.
-  subroutine subtract_internal_force(system, factor, u, f)
+  recursive subroutine subtract_internal_force(system, factor, u, f)
     type(system_t), intent(in) :: system
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
@@ -65,7 +66,7 @@ contains
 
   !> f = f - weight(k) * K u of element elements(k), one after the other; weight (1) if it is
   !> the same of all; u, f (dim, n).
-  subroutine subtract_weighted_forces(system, elements, weight, u, f)
+  recursive subroutine subtract_weighted_forces(system, elements, weight, u, f)
     type(system_t), intent(in) :: system
     integer, intent(in) :: elements(:)
     real(wp), intent(in) :: weight(:)
@@ -325,7 +326,7 @@ contains
   end subroutine element_products
 
   !> u.K u of element e, at finite deformation twice its strain energy [F L].
-  real(wp) function element_product(system, e, u)
+  recursive real(wp) function element_product(system, e, u)
     type(system_t), intent(in) :: system
     integer, intent(in) :: e
     real(wp), intent(in) :: u(:, :)

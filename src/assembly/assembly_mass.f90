@@ -13,7 +13,7 @@ module assembly_mass
   use model_rigid, only: rigid_t
   implicit none
   private
-  public :: element_mass, redistribution_targets, assemble_mass
+  public :: element_mass, redistribution_targets, assemble_mass, mass_directions
 
   !> Inner neighbours of contact nodes: count(i) of node i, in node(:) from first(i) on.
   type :: inner_t
@@ -235,5 +235,17 @@ contains
       n = n + 1
     end associate
   end subroutine add_inner
+
+  !> 1 where damping by mass is the same in all directions, else their number.
+  pure integer function mass_directions(model)
+    type(model_t), intent(in) :: model
+    integer :: k
+    mass_directions = 1
+    do k = 1, size(model%mass_damping)
+      associate (scale => model%mass_damping(k)%scale(:model%dim))
+        if (any(abs(scale - scale(1)) > zero)) mass_directions = model%dim
+      end associate
+    end do
+  end function mass_directions
 
 end module assembly_mass

@@ -9,7 +9,7 @@ module assembly_system
       whole_stiffness, largest_stiffness
   use assembly_entries, only: element_cliques, elements_at, set_one, clear_held, &
       diagonal_product
-  use assembly_mass, only: assemble_mass, redistribution_targets
+  use assembly_mass, only: assemble_mass, mass_directions, redistribution_targets
   use assembly_ring, only: whole_ring_stiffness
   use assembly_solid, only: make_solids, add_solid_tangents
   use assembly_team, only: team_t
@@ -22,8 +22,8 @@ module assembly_system
 
   !> Damping of the deck, C = (by direction) sum a_p M_p + sum |COEF_p| K_p over the parts.
   type, public :: damping_t
-    !> (dim, *) sum a_p M_p by direction, on the graph or, where the mass is diagonal, by nodes
-    !> [M/T]; only with damping by mass
+    !> (1 or, where directions differ, dim, *) sum a_p M_p, on the graph or, where the mass is
+    !> diagonal, by nodes [M/T]; only with damping by mass
     real(wp), allocatable :: mass(:, :)
     integer, allocatable :: first(:), target(:)  !< where the mass of each node goes
     integer, allocatable :: element(:)           !< elements damped by their stiffness
@@ -147,8 +147,8 @@ contains
       if (.not. allocated(model%mass_damping)) return
       d%first = first
       d%target = target
-      allocate (d%mass(system%dim, merge(system%n, size(system%mass), system%mass_is_diagonal)))
-      d%mass = zero
+      allocate (d%mass(mass_directions(model), &
+          merge(system%n, size(system%mass), system%mass_is_diagonal)), source=zero)
     end associate
   end subroutine make_damping
 
@@ -230,11 +230,13 @@ contains
     type(block_matrix_t), intent(inout) :: matrix
     real(wp), intent(in), optional :: shift(:)
     real(wp), allocatable :: at(:, :), weight(:)
-    integer :: i, k
+    integer :: i, k, rows
     logical :: by_mass
     by_mass = .false.
     if (allocated(system%damping)) by_mass = allocated(system%damping%mass)
-    allocate (at(merge(system%dim, 1, by_mass), size(system%mass)))
+    rows = 1
+    if (by_mass) rows = size(system%damping%mass, 1)
+    allocate (at(rows, size(system%mass)))
     do k = 1, size(system%mass)
       at(:, k) = c_m*system%mass(k)
     end do
@@ -319,7 +321,8 @@ contains
         k = i
         if (system%mass_is_diagonal) k = system%graph%position(i, i)
         do d = 1, system%dim
-          matrix%value(d, d, k) = matrix%value(d, d, k) + factor*c%mass(d, i)
+          matrix%value(d, d, k) = matrix%value(d, d, k) + &
+              factor*c%mass(min(d, size(c%mass, 1)), i)
         end do
       end do
     end associate

@@ -98,10 +98,9 @@ module assembly_team
       class(solver_t), allocatable, intent(out) :: solver
     end subroutine make_solver_i
     !> The end of all other ranks.
-    subroutine dismiss_i(this, code)
+    subroutine dismiss_i(this)
       import :: team_t
       class(team_t), intent(inout) :: this
-      integer, intent(in) :: code
     end subroutine dismiss_i
   end interface
 

@@ -8,8 +8,8 @@ module base_system
   use base_status, only: status_t, fail, status_file
   implicit none
   private
-  public :: make_folder, is_terminal, leave, exec_hdf5_program, peak_memory, machine_memory, &
-      has_wide_vectors
+  public :: make_folder, remove_folder, is_terminal, leave, exec_hdf5_program, &
+      peak_memory, machine_memory, has_wide_vectors
 
   interface
     integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
@@ -17,6 +17,10 @@ module base_system
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int), value, intent(in) :: mode
     end function c_mkdir
+    integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: path(*)
+    end function c_rmdir
     integer(c_int) function c_access(path, mode) bind(c, name='access')
       import :: c_int, c_char
       character(kind=c_char), intent(in) :: path(*)
@@ -61,6 +65,13 @@ contains
           hint='choose another one with -o DIR')
     end if
   end subroutine make_folder
+
+  !> Removes a folder that is empty; one that is not stays.
+  subroutine remove_folder(path)
+    character(*), intent(in) :: path
+    integer(c_int) :: ignored
+    ignored = c_rmdir(path//c_null_char)
+  end subroutine remove_folder
 
   !> True when a file descriptor (1 output, 2 messages) is a terminal.
   logical function is_terminal(descriptor)

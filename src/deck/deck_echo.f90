@@ -3,12 +3,13 @@
 !> the defaults. A value that was written as a number keeps its own text, so it reads back
 !> equal.
 module deck_echo
+  use base_checksum, only: checksum_of_text
   use base_strings, only: to_text, position_of
   use deck_data, only: deck_t, field_span
   use deck_table, only: card_t, field_t
   implicit none
   private
-  public :: write_echo
+  public :: write_echo, forget_cards
 
   !> Lines on their way to a unit, many at a time: a WRITE of each would be most of the work.
   type :: lines_t
@@ -47,6 +48,23 @@ contains
     call put_line(lines, '*END')
     call write_out(lines)
   end subroutine write_echo
+
+  !> Text and cards are gone: of a large mesh they are several times its nodes. Names of files,
+  !> their lengths and checksums stay, and the parameters.
+  subroutine forget_cards(deck)
+    type(deck_t), intent(inout) :: deck
+    integer :: k
+    do k = 1, deck%files
+      associate (file => deck%file(k))
+        file%bytes = len(file%text)
+        file%checksum = checksum_of_text(file%text)
+        deallocate (file%text)
+      end associate
+    end do
+    deallocate (deck%record, deck%block)
+    deck%records = 0
+    deck%blocks = 0
+  end subroutine forget_cards
 
   subroutine put_line(lines, line)
     type(lines_t), intent(inout) :: lines

@@ -10,6 +10,8 @@ module deck_source
   type, public :: source_file_t
     character(:), allocatable :: path
     character(:), allocatable :: text
+    integer :: bytes = 0          !< of the text, and its checksum, where that is not kept
+    character(16) :: checksum = ''
     integer :: parent = 0         !< file that includes this one
     integer :: parent_line = 0
   end type source_file_t

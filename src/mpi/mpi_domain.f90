@@ -7,6 +7,7 @@ module mpi_domain
   use assembly_system, only: system_t, add_stiffness
   use base_kinds, only: wp, zero
   use linalg_graph, only: block_matrix_t, graph_from_cliques
+  use mpi_tasks, only: l1
   implicit none
   private
 
@@ -15,6 +16,9 @@ module mpi_domain
     !> has none of it), block_of, graph
     type(system_t) :: system
     integer, allocatable :: node(:)      !< (n) rows of its nodes in the scene, increasing
+    !> (entries of the graph) this rank is told what mass and all else that no element gives
+    !> adds there; not allocated on the first one
+    logical(l1), allocatable :: is_own(:)
     type(block_matrix_t) :: matrix       !< its entries, until they are factored
     real(wp), allocatable :: u(:, :), f(:, :)   !< (dim, n) work space
   end type domain_t

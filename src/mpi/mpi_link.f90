@@ -5,9 +5,10 @@
 module mpi_link
   use, intrinsic :: iso_c_binding, only: c_int, c_size_t
   use base_kinds, only: wp
-  use mpi_f08, only: mpi_comm, mpi_comm_world, mpi_comm_rank, mpi_comm_size, mpi_init, &
-      mpi_finalize, mpi_send, mpi_recv, mpi_iprobe, mpi_probe, mpi_get_count, mpi_status, &
-      mpi_status_ignore, mpi_double_precision, mpi_integer, mpi_any_tag
+  use mpi_f08, only: mpi_comm, mpi_comm_world, mpi_comm_rank, mpi_comm_size, &
+      mpi_comm_split, mpi_init, mpi_finalize, mpi_send, mpi_recv, mpi_iprobe, mpi_probe, &
+      mpi_get_count, mpi_status, mpi_status_ignore, mpi_double_precision, mpi_integer, &
+      mpi_any_tag
   implicit none
   private
 
@@ -15,6 +16,7 @@ module mpi_link
 
   type, public :: link_t
     type(mpi_comm) :: comm
+    type(mpi_comm) :: backwards    !< the same ranks, the last one first
     integer :: rank = 0
     integer :: ranks = 1
   end type link_t
@@ -42,6 +44,7 @@ contains
     link%comm = mpi_comm_world
     call mpi_comm_rank(link%comm, link%rank)
     call mpi_comm_size(link%comm, link%ranks)
+    call mpi_comm_split(link%comm, 0, link%ranks - link%rank, link%backwards)
   end subroutine open_link
 
   !> Waits until all ranks leave.

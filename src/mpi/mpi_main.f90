@@ -16,14 +16,13 @@ program bipact_mpi
   class(storage_t), allocatable :: storage
   type(cluster_t) :: team
   type(link_t) :: link
-  integer :: code
   call open_link(link)
   if (link%rank > 0) then
     call watch_limits()
     call watch_signals(.true.)    ! it ends when the first rank does
-    call serve(link, code)
+    call serve(link)
     call close_link()
-    call leave(code)
+    call leave(0)                 ! the exit code is the first rank's, of which mpirun tells
   end if
   call start_library()
   allocate (hdf5_storage_t :: storage)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Which rank has which element: domains with few nodes between them, by METIS (Karypis & Kumar
-!> 1998). The first rank, which has the whole scene besides, has a quarter of the elements that
-!> it would with equal shares; the others have as many as each other.
+!> 1998). The first rank, which has the whole scene besides, has a twentieth of the elements of
+!> two ranks and a sixtieth of those of three; the others have as many as each other.
 module mpi_partition
   use, intrinsic :: iso_c_binding, only: c_int, c_float, c_ptr, c_null_ptr
   use assembly_blocks, only: element_block_t
@@ -38,6 +38,7 @@ contains
     type(status_t), intent(inout) :: status
     integer(c_int), allocatable :: start(:), member(:), part(:), node_part(:)
     integer, allocatable :: list(:)
+    real(c_float) :: first_share    ! of an equal share, for equal memory
     real(c_float) :: share(ranks)
     integer(c_int) :: cut, info
     integer :: e, k, m
@@ -64,7 +65,8 @@ contains
       end associate
     end do
     part = 0
-    share = (1.0_c_float - 0.25_c_float/real(ranks, c_float))/max(1, ranks - 1)
+    first_share = merge(0.1_c_float, 0.05_c_float, ranks == 2)
+    share = (1.0_c_float - first_share/real(ranks, c_float))/max(1, ranks - 1)
     share(1) = 1.0_c_float - sum(share(2:))
     info = 1
     if (ranks > 1) info = metis_part_mesh_dual(int(size(list), c_int), int(nodes, c_int), &

@@ -11,7 +11,7 @@ module mpi_share
   use mpi_domain, only: domain_t, make_graph
   use mpi_link, only: link_t, header_length, send_numbers, receive_numbers, send_integers, &
       receive_integers, waiting_numbers
-  use mpi_tasks, only: task_share
+  use mpi_tasks, only: i2, l1, task_share
   implicit none
   private
 
@@ -19,7 +19,8 @@ module mpi_share
   type, public :: part_t
     integer, allocatable :: element(:)   !< its elements in the scene, increasing
     integer, allocatable :: node(:)      !< its nodes in the scene, increasing
-    !> Of each entry of its graph the place in that of the scene; 0 where another rank has it
+    !> Of the first rank, for each entry of its graph the place in that of the scene, 0 where
+    !> another rank has it. (Of the others see owner_of in SEND_DOMAINS.)
     integer, allocatable :: pair(:)
   end type part_t
 
@@ -54,7 +55,9 @@ contains
   end subroutine make_parts
 
   !> Domains of all ranks from the first one; own is its own. modes: see assembly_team.
-  subroutine send_domains(link, model, graph, block, owner, part, own, modes)
+  !> owner_of: the rank of each entry of the graph, 0 for the first. Both ends have entries in
+  !> the same order, for nodes of a rank are in that of the scene.
+  subroutine send_domains(link, model, graph, block, owner, part, own, owner_of, modes)
     type(link_t), intent(in) :: link
     type(model_t), intent(in) :: model
     type(graph_t), intent(in) :: graph
@@ -62,9 +65,9 @@ contains
     integer, intent(in) :: owner(:)
     type(part_t), intent(inout) :: part(0:)
     type(domain_t), intent(inout) :: own
+    integer(i2), allocatable, intent(out) :: owner_of(:)
     real(wp), allocatable, intent(inout) :: modes(:, :)
     integer, allocatable :: shape_of(:, :), member(:)
-    logical, allocatable :: is_taken(:)
     integer :: r, b
     do r = link%ranks - 1, 0, -1
       call describe(model%dim, model%nodes, block, owner, r, part(r), shape_of, member)
@@ -80,11 +83,11 @@ contains
       if (.not. block(b)%is_rigid) call send_stiffness(link, model, block(b), owner, &
           own%system%block(b), modes)
     end do
-    allocate (is_taken(size(graph%column)), source=.false.)
+    allocate (owner_of(size(graph%column)), source=0_i2)
     do r = 1, link%ranks - 1
-      call take_graph(link, graph, r, part(r), is_taken)
+      call take_graph(link, graph, r, part(r), owner_of)
     end do
-    call keep_rest(graph, part(0), own, is_taken)
+    call keep_rest(graph, part(0), own, owner_of)
   end subroutine send_domains
 
   !> The blocks of a rank, (nodes of an element, 1 = ring, order of its stiffness, elements),
@@ -178,57 +181,69 @@ contains
     end do
   end subroutine send_stiffness
 
-  !> Which entries of the graph of the scene a rank has.
-  subroutine take_graph(link, graph, rank, part, is_taken)
+  !> Which entries of the graph of the scene a rank has: it sends its own graph and is told.
+  subroutine take_graph(link, graph, rank, part, owner_of)
     type(link_t), intent(in) :: link
     type(graph_t), intent(in) :: graph
     integer, intent(in) :: rank
     type(part_t), intent(inout) :: part
-    logical, intent(inout) :: is_taken(:)
+    integer(i2), intent(inout) :: owner_of(:)
     type(graph_t) :: own
+    integer :: i, k, at
     own%n = size(part%node)
     allocate (own%first(own%n + 1))
     call receive_integers(link, rank, own%n + 1, own%first)
     allocate (own%column(own%first(own%n + 1) - 1))
     call receive_integers(link, rank, size(own%column), own%column)
-    call take_entries(graph, own, part, is_taken)
+    do i = 1, own%n
+      do k = own%first(i), own%first(i + 1) - 1
+        at = graph%position(part%node(i), part%node(own%column(k)))
+        own%column(k) = merge(1, 0, owner_of(at) == 0_i2)
+        if (own%column(k) == 1) owner_of(at) = int(rank, i2)
+      end do
+    end do
+    call send_integers(link, rank, size(own%column), own%column)
   end subroutine take_graph
 
-  subroutine take_entries(graph, own, part, is_taken)
+  !> The places of the first rank's entries, once the others have theirs.
+  subroutine take_entries(graph, own, part, owner_of, is_taken)
     type(graph_t), intent(in) :: graph, own
     type(part_t), intent(inout) :: part
-    logical, intent(inout) :: is_taken(:)
+    integer(i2), intent(in) :: owner_of(:)
+    logical(l1), intent(inout) :: is_taken(:)
     integer :: i, k, at
+    is_taken = .false.
     if (allocated(part%pair)) deallocate (part%pair)
     allocate (part%pair(size(own%column)))
     do i = 1, own%n
       do k = own%first(i), own%first(i + 1) - 1
         at = graph%position(part%node(i), part%node(own%column(k)))
-        part%pair(k) = merge(0, at, is_taken(at))
+        part%pair(k) = merge(at, 0, owner_of(at) == 0_i2)
         is_taken(at) = .true.
       end do
     end do
   end subroutine take_entries
 
   !> The first rank has the other entries: of its elements, and pairs that no element joins.
-  subroutine keep_rest(graph, part, own, is_taken)
+  subroutine keep_rest(graph, part, own, owner_of)
     type(graph_t), intent(in) :: graph
     type(part_t), intent(inout) :: part
     type(domain_t), intent(inout) :: own
-    logical, intent(inout) :: is_taken(:)
-    logical, allocatable :: is_own(:), before(:)
+    integer(i2), intent(in) :: owner_of(:)
+    logical(l1), allocatable :: is_taken(:)
+    logical, allocatable :: is_own(:)
     integer, allocatable :: pair(:, :), local(:)
     integer :: i, k, n, pass
-    allocate (before, source=is_taken)
+    allocate (is_taken(size(owner_of)))
     call make_graph(own, reshape([integer ::], [2, 0]))
-    call take_entries(graph, own%system%graph, part, is_taken)
+    call take_entries(graph, own%system%graph, part, owner_of, is_taken)
     allocate (is_own(graph%n), source=.false.)
     is_own(part%node) = .true.
     do pass = 1, 2
       n = 0
       do i = 1, graph%n
         do k = graph%first(i), graph%first(i + 1) - 1
-          if (is_taken(k) .or. graph%column(k) > i) cycle
+          if (is_taken(k) .or. owner_of(k) > 0_i2 .or. graph%column(k) > i) cycle
           n = n + 1
           if (pass == 2) pair(:, n) = [i, graph%column(k)]
           is_own([i, graph%column(k)]) = .true.
@@ -240,8 +255,7 @@ contains
     call renumber(is_own, part, own, local)
     pair = reshape(local(reshape(pair, [2*n])), [2, n])
     call make_graph(own, pair)
-    is_taken = before
-    call take_entries(graph, own%system%graph, part, is_taken)
+    call take_entries(graph, own%system%graph, part, owner_of, is_taken)
   end subroutine keep_rest
 
   !> More nodes for the first rank.
@@ -272,7 +286,7 @@ contains
     type(link_t), intent(in) :: link
     real(wp), intent(in) :: header(header_length)
     type(domain_t), intent(inout) :: domain
-    integer, allocatable :: shape_of(:, :), node(:), member(:)
+    integer, allocatable :: shape_of(:, :), node(:), member(:), taken(:)
     integer :: b, from, n
     allocate (shape_of(columns, nint(header(3))), node(nint(header(4))), &
         member(nint(header(5))))
@@ -293,6 +307,10 @@ contains
     associate (graph => domain%system%graph)
       call send_integers(link, 0, size(graph%first), graph%first)
       call send_integers(link, 0, size(graph%column), graph%column)
+      if (allocated(domain%is_own)) deallocate (domain%is_own)
+      allocate (taken(size(graph%column)), domain%is_own(size(graph%column)))
+      call receive_integers(link, 0, size(taken), taken)
+      domain%is_own = logical(taken == 1, l1)
     end associate
   end subroutine receive_domain
 

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What the first rank can ask of the others: the first number of the header of each message.
 module mpi_tasks
+  use, intrinsic :: iso_c_binding, only: c_bool
+  use, intrinsic :: iso_fortran_env, only: int16
   implicit none
   private
 
@@ -9,6 +11,9 @@ module mpi_tasks
       task_products = 6, task_assemble = 7, task_largest = 8, task_analyse = 9, &
       task_factor = 10, task_condense = 11, task_expand = 12, task_close = 13, &
       task_measure = 14
+
+  !> Kinds of lists as long as the graph: ranks, and yes or no.
+  integer, parameter, public :: i2 = int16, l1 = c_bool
 
   !> Factors at a time: of two stages, and a new one before the old one goes.
   integer, parameter, public :: most_engines = 8

@@ -16,7 +16,7 @@ module mpi_team
   use mpi_partition, only: find_owners
   use mpi_share, only: part_t, make_parts, send_domains
   use mpi_solver, only: mumps_t
-  use mpi_tasks, only: task_leave, task_forces, task_weighted_forces, task_list_forces, &
+  use mpi_tasks, only: i2, task_leave, task_forces, task_weighted_forces, task_list_forces, &
       task_list_products, task_products, task_assemble, task_largest, most_engines
   implicit none
   private
@@ -26,6 +26,7 @@ module mpi_team
     type(domain_t) :: domain             !< of the first rank
     type(part_t), allocatable :: part(:) !< (0:ranks-1)
     integer, allocatable :: owner(:), place(:)   !< (elements) rank, and place in its list
+    integer(i2), allocatable :: owner_of(:)      !< rank of each entry of the graph
     real(wp), allocatable :: buffer(:, :)        !< (dim, most nodes of a rank)
     logical :: engine_is_used(most_engines) = .false.
   contains
@@ -57,7 +58,8 @@ contains
     if (failed(status)) return
     call make_parts(this%ranks, model%nodes, block, block_of, this%owner, this%part, this%place)
     if (model%dim == 2) allocate (modes(3, model%mesh%n), source=zero)
-    call send_domains(this%link, model, graph, block, this%owner, this%part, this%domain, modes)
+    call send_domains(this%link, model, graph, block, this%owner, this%part, this%domain, &
+        this%owner_of, modes)
     most = 0
     do r = 0, this%ranks - 1
       most = max(most, size(this%part(r)%node))
@@ -271,7 +273,7 @@ contains
     logical, allocatable :: own_fixed(:, :)
     integer :: r
     do r = this%ranks - 1, 0, -1
-      call entries_of(this%part(r), weight, at, own_weight, own_at)
+      call entries_of(this, r, weight, at, own_weight, own_at)
       own_fixed = fixed(:, this%part(r)%node)
       if (r == 0) exit
       call hand_out(this, r, task_assemble, real(size(own_weight), wp), real(size(at, 1), wp))
@@ -284,19 +286,32 @@ contains
     call add_nodes(this, diagonal)
   end subroutine cluster_assemble
 
-  !> What concerns a rank.
-  subroutine entries_of(part, weight, at, own_weight, own_at)
-    type(part_t), intent(in) :: part
+  !> What concerns a rank. own_at: of its entries, of the first rank with zeros at those that
+  !> others have.
+  subroutine entries_of(this, rank, weight, at, own_weight, own_at)
+    class(cluster_t), intent(in) :: this
+    integer, intent(in) :: rank
     real(wp), intent(in) :: weight(:), at(:, :)
     real(wp), allocatable, intent(out) :: own_weight(:), own_at(:, :)
-    integer :: k
-    if (size(weight) == 1) own_weight = weight
-    if (size(weight) > 1) own_weight = weight(part%element)
-    allocate (own_at(size(at, 1), size(part%pair)))
-    do k = 1, size(part%pair)
-      own_at(:, k) = zero
-      if (part%pair(k) > 0) own_at(:, k) = at(:, part%pair(k))
-    end do
+    integer :: k, n
+    associate (part => this%part(rank))
+      if (size(weight) == 1) own_weight = weight
+      if (size(weight) > 1) own_weight = weight(part%element)
+      if (rank == 0) then
+        allocate (own_at(size(at, 1), size(part%pair)), source=zero)
+        do k = 1, size(part%pair)
+          if (part%pair(k) > 0) own_at(:, k) = at(:, part%pair(k))
+        end do
+        return
+      end if
+      allocate (own_at(size(at, 1), count(this%owner_of == rank)))
+      n = 0
+      do k = 1, size(at, 2)
+        if (this%owner_of(k) /= rank) cycle
+        n = n + 1
+        own_at(:, n) = at(:, k)
+      end do
+    end associate
   end subroutine entries_of
 
   real(wp) function cluster_largest_stiffness(this)
@@ -326,12 +341,11 @@ contains
     end select
   end subroutine cluster_make_solver
 
-  subroutine cluster_dismiss(this, code)
+  subroutine cluster_dismiss(this)
     class(cluster_t), intent(inout) :: this
-    integer, intent(in) :: code
     integer :: r
     do r = 1, this%ranks - 1
-      call hand_out(this, r, task_leave, real(code, wp), zero)
+      call hand_out(this, r, task_leave, zero, zero)
     end do
     call close_link()
   end subroutine cluster_dismiss

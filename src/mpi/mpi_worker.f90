@@ -2,7 +2,7 @@
 !> Every rank but the first: it does what the first one asks until that lets it go.
 module mpi_worker
   use assembly_blocks, only: largest_stiffness
-  use base_kinds, only: wp
+  use base_kinds, only: wp, zero
   use base_system, only: peak_memory
   use linalg_graph, only: graph_t, block_matrix_t
   use mpi_domain, only: domain_t, find_forces, find_weighted_forces, find_products, &
@@ -22,10 +22,9 @@ module mpi_worker
 
 contains
 
-  !> One task after the other; code: what to leave with.
-  subroutine serve(link, code)
+  !> One task after the other.
+  subroutine serve(link)
     type(link_t), intent(in) :: link
-    integer, intent(out) :: code
     type(domain_t) :: domain
     type(engine_t) :: engine(most_engines)
     real(wp) :: header(header_length)
@@ -33,7 +32,6 @@ contains
       call wait_for_header(link, header)
       select case (nint(header(1)))
       case (task_leave)
-        code = nint(header(2))
         return
       case (task_share)
         call receive_domain(link, header, domain)
@@ -82,13 +80,22 @@ contains
     type(link_t), intent(in) :: link
     real(wp), intent(in) :: header(header_length)
     type(domain_t), intent(inout) :: domain
-    real(wp), allocatable :: weight(:), at(:, :)
+    real(wp), allocatable :: weight(:), at(:, :), told(:, :)
     integer, allocatable :: fixed(:, :)
+    integer :: k, n
     allocate (weight(nint(header(2))))
-    allocate (at(nint(header(3)), size(domain%system%graph%column)))
+    allocate (at(nint(header(3)), size(domain%is_own)), source=zero)
+    allocate (told(nint(header(3)), count(domain%is_own)))
     allocate (fixed(domain%system%dim, domain%system%n))
     call receive_numbers(link, 0, size(weight), weight)
-    call receive_numbers(link, 0, size(at), at)
+    call receive_numbers(link, 0, size(told), told)
+    n = 0
+    do k = 1, size(domain%is_own)
+      if (.not. domain%is_own(k)) cycle
+      n = n + 1
+      at(:, k) = told(:, n)
+    end do
+    deallocate (told)
     call receive_integers(link, 0, size(fixed), fixed)
     call assemble(domain, weight, at, fixed == 1)
     call send_numbers(link, 0, size(domain%f), domain%f)

@@ -225,6 +225,7 @@ module run_data
     integer :: restart_files = 0
     character(:), allocatable :: restarted    !< from where, empty: from the start
     character(:), allocatable :: folder
+    logical :: made_folder = .false.          !< it was not there before
     !> The one record of what there is to say: of the deck first, then of the run.
     type(messages_t) :: notes, warnings
     !> Step in which each kind was first seen, and its time [T]

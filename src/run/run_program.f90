@@ -16,6 +16,7 @@ module run_program
   use base_system, only: make_folder, leave, exec_hdf5_program
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
+  use deck_echo, only: forget_cards
   use deck_help, only: write_keywords, write_keyword, write_usage
   use deck_keywords, only: fill_table, complete_table
   use deck_match, only: match_name
@@ -25,13 +26,14 @@ module run_program
   use output_tables, only: open_tables, close_tables
   use run_arguments, only: arguments_t, read_arguments
   use run_data, only: run_t
+  use run_echo, only: put_echo, drop_echo, scratch_path
   use run_forecast, only: make_forecast, write_forecast
   use run_frames, only: start_frames, end_segment, remove_segments
   use run_loop, only: go_through_steps
   use run_report, only: open_log, close_log, write_plan, write_solver
   use run_restart, only: start_restarts, remove_restarts
   use run_resume, only: resume
-  use run_setup, only: read_scene, set_up, size_solver
+  use run_setup, only: read_scene, prepare, start_factor, size_solver
   use run_summary, only: totals_t, find_totals, ending_of, write_run_summary, remove_run_summary
   use run_warnings, only: show_warnings, write_kinds
   implicit none
@@ -70,7 +72,7 @@ contains
     end if
     if (failed(status)) write (error_unit, '(a)') 'bipact: '//status_text(status)
     deallocate (run)
-    if (present(team)) call team%dismiss(status%code)
+    if (present(team)) call team%dismiss()
     call leave(status%code)
   end subroutine run_deck
 
@@ -128,8 +130,12 @@ contains
       end if
       return
     end if
-    call set_up(run, status)
+    call prepare(run, status)
+    ! A restart file may belong to another deck, which is compared with this one later.
+    if (.not. allocated(arguments%restart)) call write_aside(run, status)
+    call start_factor(run, status)
     if (failed(status)) then
+      call drop_echo(run, status)
       if (status%code == status_numerical) call tell_failed_start(run, status)
       return
     end if
@@ -214,6 +220,16 @@ contains
     end if
   end subroutine need_storage
 
+  !> The deck as understood goes to its file before the factor takes memory.
+  subroutine write_aside(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
+    call run%timers%enter(phase_output)
+    call put_echo(run, status)
+    call forget_cards(run%deck)
+    call run%timers%enter(phase_other)
+  end subroutine write_aside
+
   !> A run that fails before its first step has no log and no tables; its summary says why.
   subroutine tell_failed_start(run, status)
     type(run_t), intent(in) :: run
@@ -232,7 +248,7 @@ contains
     type(status_t), intent(inout) :: status
     type(status_t) :: closing, last_frames
     call run%timers%enter(phase_output)
-    call make_folder(run%folder, status)
+    if (allocated(arguments%restart)) call put_echo(run, status)
     if (failed(status)) return
     call start_storage(arguments, run, status)
     if (failed(status)) return
@@ -267,7 +283,8 @@ contains
     if (run%plan%restarts .or. allocated(arguments%restart)) call start_restarts(run, status)
     if (failed(status) .or. .not. allocated(arguments%restart)) return
     call resume(run, arguments%restart, status)
-    if (failed(status)) call remove_file(join_path(run%folder, 'deck.echo.tmp'))
+    call forget_cards(run%deck)
+    if (failed(status)) call remove_file(scratch_path(run))
   end subroutine start_storage
 
   !> Files of an earlier run go, or those beyond the restart.
@@ -275,7 +292,6 @@ contains
     type(run_t), intent(in) :: run
     call remove_file(join_path(run%folder, 'restart.tmp'))
     call remove_file(join_path(run%folder, 'fields.xdmf.tmp'))
-    call remove_file(join_path(run%folder, 'deck.echo.tmp'))
     if (allocated(run%restarted)) then
       call remove_restarts(run%folder, run%state%cycle)
       if (run%plan%fields) call remove_segments(run%folder, run%fields%segment)

@@ -11,11 +11,11 @@ module run_report
   use contact_rows, only: row_edge, row_vertex, row_second, row_wall, row_guided, &
       row_mortar
   use contact_types, only: contact_t
-  use deck_echo, only: write_echo
   use deck_names, only: step_fixed
   use linalg_solver, only: solver_t, work_of, inverse_bytes
   use output_tables, only: flows
   use run_data, only: run_t
+  use run_echo, only: keep_echo
   use run_forecast, only: write_comparison
   use run_plan, only: plan_line
   use run_summary, only: totals_t, find_totals, write_run_summary
@@ -67,24 +67,6 @@ contains
     write (unit, '(a)') 'of it for '//to_text(solver%d*solver%n_interface)//' contact dofs '// &
         to_text(inverse_bytes(solver))//' bytes, beside it their inverse of as many'
   end subroutine write_solver
-
-  !> deck.echo.k: the deck as understood. Where its hash was taken it is there already.
-  subroutine keep_echo(run, status)
-    type(run_t), intent(in) :: run
-    type(status_t), intent(inout) :: status
-    character(:), allocatable :: path
-    integer :: unit
-    path = join_path(run%folder, 'deck.echo.k')
-    if (run%deck_hash /= '') then
-      call move_file(join_path(run%folder, 'deck.echo.tmp'), path, status)
-      if (failed(status)) call remove_file(join_path(run%folder, 'deck.echo.tmp'))
-      return
-    end if
-    call open_text(path, unit, status)
-    if (failed(status)) return
-    call write_echo(run%deck, unit)
-    call close_text(path, unit, status)
-  end subroutine keep_echo
 
   !> The scene plan: size, scheme, features with their reasons.
   subroutine write_plan(run, unit)

@@ -12,12 +12,12 @@ module run_restart
   use base_strings, only: join_path
   use base_timers, only: phase_output, phase_other
   use base_version, only: version
-  use deck_echo, only: write_echo
   use deck_source, only: source_file_t, load_file
   use output_storage, only: restart_header_t
   use output_tables, only: flush_tables, exchange_tables
   use run_arguments, only: command_to_go_on
   use run_data, only: run_t
+  use run_echo, only: scratch_path
   use run_frames, only: end_segment, exchange_frames
   use run_step, only: at_end, exchange_step, exchange_moment
   implicit none
@@ -36,25 +36,14 @@ module run_restart
 
 contains
 
-  !> The deck as understood and its hash. It is written as deck.echo.tmp for that and becomes
-  !> deck.echo.k with the log: a restart that is refused leaves the folder as it was. The clock
-  !> starts.
+  !> The deck as understood, which put_echo has written, and its hash. The clock starts.
   subroutine start_restarts(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     type(source_file_t) :: echo
-    character(:), allocatable :: path
-    integer :: unit
-    path = join_path(run%folder, 'deck.echo.tmp')
-    call open_text(path, unit, status)
+    call load_file(scratch_path(run), echo, status)
+    if (failed(status)) call remove_file(scratch_path(run))
     if (failed(status)) return
-    call write_echo(run%deck, unit)
-    call close_text(path, unit, status)
-    if (.not. failed(status)) call load_file(path, echo, status)
-    if (failed(status)) then
-      call remove_file(path)
-      return
-    end if
     call move_alloc(echo%text, run%echo)
     run%deck_hash = checksum_of_text(run%echo)
     call system_clock(run%restart_tick)

@@ -33,7 +33,7 @@ module run_setup
   use time_registry, only: make_scheme
   implicit none
   private
-  public :: read_scene, set_up, size_solver, start_dynamics
+  public :: read_scene, set_up, prepare, start_factor, size_solver, start_dynamics
 
   !> About a Courant number of 10.
   real(wp), parameter :: refinement_ratio = 200.0_wp
@@ -66,11 +66,18 @@ contains
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status
     call prepare(run, status)
+    call start_factor(run, status)
+  end subroutine set_up
+
+  !> The second half of SET_UP: the first factors, where most memory is taken.
+  subroutine start_factor(run, status)
+    type(run_t), intent(inout) :: run
+    type(status_t), intent(inout) :: status
     call factor_matrix(run, .true., status)
     if (failed(status)) return
     call plan_refinement(run)
     call run%timers%enter(phase_other)
-  end subroutine set_up
+  end subroutine start_factor
 
   !> What the factor of a scene that has been read will need: run%solver%info.
   subroutine size_solver(run, status)
@@ -80,7 +87,7 @@ contains
     call size_factor(run, status)
   end subroutine size_solver
 
-  !> All that comes before the first factor.
+  !> The first half of SET_UP: all that comes before the first factor.
   subroutine prepare(run, status)
     type(run_t), intent(inout) :: run
     type(status_t), intent(inout) :: status

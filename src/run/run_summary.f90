@@ -126,8 +126,13 @@ contains
     do k = 1, deck%files
       call json%open('{')
       call json%put(deck%file(k)%path, 'path')
-      call json%put(len(deck%file(k)%text), 'bytes')
-      call json%put(checksum_of_text(deck%file(k)%text), 'checksum')
+      if (allocated(deck%file(k)%text)) then
+        call json%put(len(deck%file(k)%text), 'bytes')
+        call json%put(checksum_of_text(deck%file(k)%text), 'checksum')
+      else
+        call json%put(deck%file(k)%bytes, 'bytes')
+        call json%put(deck%file(k)%checksum, 'checksum')
+      end if
       call json%close('}')
     end do
     call json%close(']')
