@@ -27,8 +27,8 @@ contains
       '  --plan          prints what the scene needs; writes no file', &
       '  --quiet         no summary and no progress line', &
       '  --keywords      lists the keywords, their cards and fields, or those of one', '', &
-      'exit code: 0 done, 1 numerical failure, 2 error in deck or command, 3 file or', &
-      '           system error, 4 stopped by a signal', '', &
+      'exit code: 0 done, 1 numerical failure, 2 deck error, 3 file, system or', &
+      '           command line error, 4 stopped by a signal', '', &
       'Results as the deck asks: tables, field files, restart files; log, deck.echo.k.', '']
     integer :: k
     do k = 1, size(line) - 1

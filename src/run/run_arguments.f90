@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The command line.
 module run_arguments
-  use base_status, only: status_t, fail, failed, status_deck
+  use base_status, only: status_t, fail, failed, status_file
   use deck_parameter, only: override_t
   implicit none
   private
@@ -34,7 +34,7 @@ contains
       case ('-o', '-D', '--restart', '--threads')
         k = k + 1
         if (k > command_argument_count()) then
-          call fail(status, status_deck, word//' needs a value', hint='bipact --help')
+          call fail(status, status_file, word//' needs a value', hint='bipact --help')
         else if (word == '-o') then
           arguments%folder = argument(k)
         else if (word == '--restart') then
@@ -60,9 +60,9 @@ contains
         if (index(word, '-D') == 1 .and. len(word) > 2) then
           call add_override(arguments, word(3:), status)
         else if (word(1:min(1, len(word))) == '-') then
-          call fail(status, status_deck, 'unknown option "'//word//'"', hint='bipact --help')
+          call fail(status, status_file, 'unknown option "'//word//'"', hint='bipact --help')
         else if (allocated(arguments%deck)) then
-          call fail(status, status_deck, 'more than one deck: "'//arguments%deck//'" and "'// &
+          call fail(status, status_file, 'more than one deck: "'//arguments%deck//'" and "'// &
               word//'"', hint='bipact --help')
         else
           arguments%deck = word
@@ -72,7 +72,7 @@ contains
     end do
     if (allocated(arguments%deck) .or. arguments%keywords .or. arguments%help &
         .or. arguments%version) return
-    call fail(status, status_deck, 'no deck given', hint='bipact DECK; bipact --help')
+    call fail(status, status_file, 'no deck given', hint='bipact DECK; bipact --help')
   end subroutine read_arguments
 
   !> A number of threads.
@@ -85,7 +85,7 @@ contains
     if (len(text) > 0 .and. len(text) < 10 .and. verify(text, '0123456789') == 0) &
         read (text, *, iostat=ios) threads
     if (ios == 0 .and. threads >= 1 .and. threads <= 1024) return
-    call fail(status, status_deck, '--threads needs a number from 1 to 1024, found "'// &
+    call fail(status, status_file, '--threads needs a number from 1 to 1024, found "'// &
         text//'"', hint='bipact --help')
   end subroutine read_threads
 
@@ -142,7 +142,7 @@ contains
     integer :: equal
     equal = index(text, '=')
     if (equal < 2 .or. equal == len(text) .or. equal > 11 .or. len(text) - equal > 24) then
-      call fail(status, status_deck, 'expected -D name=value with a name of 1 to 9 and a '// &
+      call fail(status, status_file, 'expected -D name=value with a name of 1 to 9 and a '// &
           'value of 1 to 24 characters, found "'//text//'"')
       return
     end if

@@ -84,10 +84,10 @@ def threads_refused():
         check(code == 2 and "THREADS" in errors, "THREADS %s: %d: %s" % (word, code, errors))
         plain = scenes.deck(lines, 1.0e-3, 1.0e-3)
         folder, code, errors = run_text("option " + word, plain, "--threads", word)
-        ok = code == 2 and "--threads" in errors and '"%s"' % word in errors
+        ok = code == 3 and "--threads" in errors and '"%s"' % word in errors
         check(ok, "--threads %s: %d: %s" % (word, code, errors))
     folder, code, errors = run_text("none", plain, "--threads")
-    check(code == 2 and "--threads needs a value" in errors, "--threads: %d: %s" % (code, errors))
+    check(code == 3 and "--threads needs a value" in errors, "--threads: %d: %s" % (code, errors))
     text = scenes.deck(lines, 1.0e-3, 1.0e-3, extra=solver("AUTO", "4"))
     folder, code, errors = run_text("both", text, "--threads", "2", "--quiet")
     check(code == 0, "both: %d: %s" % (code, errors))
