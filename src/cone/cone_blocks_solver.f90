@@ -126,8 +126,10 @@ contains
     call evaluate_error(p, options%tolerance, certificate)
     call proximal_newton(options, p, .true., 0, newton_budget(p, began, strategy), certificate)
     strategy%singular = p%newton%too_long
-    if (.not. certificate%met .and. strategy%newtons == 0 .and. .not. strategy%singular) &
-        call newton_from_nothing(options, p, certificate)
+    if (.not. certificate%met .and. strategy%anew .and. .not. strategy%singular) then
+      call newton_from_nothing(options, p, newton_budget(p, began, strategy), certificate)
+      strategy%begun_anew = .true.
+    end if
     if (.not. certificate%met .and. strategy%proximal_due) call proximal_newton(options, p, &
         .false., most_loops, newton_budget(p, began, strategy), certificate)
     if (certificate%met) return

@@ -91,17 +91,19 @@ contains
   end subroutine proximal_newton
 
   !> Newton on W itself from no reactions, where steps from the best point are short because
-  !> statuses there are not those of the answer: contacts then close one after the other. r is
-  !> left as it was where the answer is no better.
-  subroutine newton_from_nothing(options, p, certificate)
+  !> statuses there are not those of the answer: contacts then close one after the other. budget:
+  !> products with W after which it stops. r is left as it was where the answer is no better.
+  subroutine newton_from_nothing(options, p, budget, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
+    real(wp), intent(in) :: budget
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
     real(wp) :: kept(size(p%r, 1), size(p%r, 2)), norm
     kept = p%r
     p%r = zero
-    call one_newton(options, p, zero, huge(one), few_patience, norm, certificate)
+    call one_newton(options, p, zero, certificate%products + budget, &
+        few_patience, norm, certificate)
     trial = certificate
     call evaluate_error(p, options%tolerance, trial)
     certificate%products = trial%products

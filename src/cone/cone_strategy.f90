@@ -21,6 +21,9 @@ module cone_strategy
   !> been measured. Their rate is that of the last three to six chunks.
   real(wp), parameter :: promising = 100.0_wp, decade = 60.0_wp
   integer, parameter :: window = 3
+  !> A turn of sweeps in the place of momentum that stalls takes at least that share of what has
+  !> been spent.
+  real(wp), parameter :: turn_share = 0.08_wp
   real(wp), parameter :: largest_newton = 1.0e8_wp  !< numbers of the matrix of a step
   !> Newton is expected to take about that many steps.
   !> The proximal loop takes a few times that.
@@ -38,7 +41,7 @@ module cone_strategy
   !> Of what other methods have spent Newton and the proximal loop get that much: in the plane,
   !> where the law is made of straight pieces, and in space; more where nothing else makes
   !> progress.
-  real(wp), parameter :: shares(2:3) = [0.5_wp, 0.2_wp], stalled_shares(2:3) = [1.0_wp, 0.5_wp]
+  real(wp), parameter :: shares(2:3) = [0.5_wp, 0.2_wp], stalled_shares(2:3) = [1.0_wp, 0.35_wp]
 
   !> What is known of the iterations so far.
   type, public :: strategy_t
@@ -46,6 +49,8 @@ module cone_strategy
     logical :: proximal_due = .false.    !< with the proximal loop behind it
     integer :: newtons = 0               !< attempts
     logical :: singular = .false.        !< the last one found W singular
+    logical :: anew = .false.            !< Newton from no reactions is due, which is once
+    logical :: begun_anew = .false.
     real(wp) :: newton_spent = zero      !< products of all of them
     real(wp) :: newton_end = zero        !< products at the end of the last
     real(wp) :: newton_rate = zero       !< progress a product of the last
@@ -63,7 +68,7 @@ module cone_strategy
     real(wp) :: sweeps_rate = zero, momentum_rate = zero
     !> Momentum goes on after a turn of sweeps at r (d, nc) where it was, with its own misfit,
     !> unless the misfit became much less than at their start.
-    real(wp) :: turn_misfit = zero, left_own = zero
+    real(wp) :: turn_end = zero, turn_misfit = zero, left_own = zero
     real(wp), allocatable :: left_at(:, :)
   end type strategy_t
 
@@ -149,6 +154,7 @@ contains
       strategy%left_own = strategy%own
       strategy%turn_misfit = p%best_misfit
       strategy%span = 2.0_wp*strategy%span
+      strategy%turn_end = now + merge(turn_share*now, zero, strategy%stalled)
       p%r = p%best
       call start_method(p, anderson_sweeps)
       call start_measure(now, p%best_misfit, strategy)
@@ -156,6 +162,7 @@ contains
       call measure_sweeps(now, strategy, rate)
       if (log(p%best_misfit/options%tolerance) <= promising*rate) return
       if (rate >= max(strategy%momentum_rate, log(10.0_wp)/decade)) return
+      if (now < strategy%turn_end) return
       if (allocated(strategy%left_at) .and. .not. strategy%mark(2) > strategy%mark(1)) return
       strategy%sweeps_rate = rate
       if (allocated(strategy%left_at) .and. p%best_misfit > much_less*strategy%turn_misfit) then
@@ -216,6 +223,9 @@ contains
           *strategy%newton_misfit
     end if
     strategy%newton_due = strategy%newton_due .and. (strategy%stalled .or. left > trial)
+    strategy%anew = .not. strategy%begun_anew .and. (strategy%stalled .or. left > 0.6_wp*cost)
+    if (strategy%newtons > 0 .and. .not. strategy%singular) &
+        strategy%newton_due = strategy%newton_due .or. strategy%anew
   end subroutine ask_for_newton
 
   pure real(wp) function newton_cost(p)
@@ -268,6 +278,7 @@ contains
     strategy%newton_misfit = p%best_misfit
     strategy%from = strategy%from + (now - began)
     strategy%mark = strategy%mark + (now - began)
+    strategy%turn_end = strategy%turn_end + (now - began)
     if (p%best_misfit <= half*before) &
         strategy%newton_rate = log(before/p%best_misfit)/max(one, now - began)
     if (p%method == momentum_steps .and. p%best_misfit > much_less*before) return
