@@ -122,7 +122,7 @@ contains
     kept = p%r
     began = certificate%products
     before = p%best_misfit
-    p%r = p%best
+    if (.not. p%stands_still) p%r = p%best
     call evaluate_error(p, options%tolerance, certificate)
     call proximal_newton(options, p, .true., 0, newton_budget(p, began, strategy), certificate)
     strategy%singular = p%newton%too_long

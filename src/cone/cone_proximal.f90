@@ -50,6 +50,7 @@ contains
     best = p%r
     alpha = zero
     shrink = least_shrink
+    p%stands_still = .false.
     if (.not. plain_first) call resume(p, misfit_of(certificate), best, alpha)
     do outer = 1, loops + merge(1, 0, plain_first)
       if (late(options) .or. certificate%products > most_products) exit
@@ -71,15 +72,16 @@ contains
       else if (norm > min(1.0e-3_wp*alpha, half*p%newton%first_norm)) then
         p%r = last
         if (alpha >= one) then
+          p%stands_still = .true.
           p%alpha = zero
           alpha = zero
           exit
         end if
         alpha = min(one, 4.0_wp*alpha)
-        shrink = sqrt(shrink)
+        shrink = min(half, sqrt(shrink))
       else
         alpha = shrink*alpha
-        shrink = max(least_shrink, shrink**1.25_wp)
+        shrink = max(least_shrink, shrink**1.5_wp)
       end if
     end do
     if (alpha > zero) then
