@@ -142,7 +142,7 @@ contains
     most = most_newton
     if (most_products < huge(goal)) most = min(most, max(few_patience, &
         nint((most_products - certificate%products)/step_products(p%w, p%newton))))
-    goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
+    goal = 0.1_wp*options%tolerance*sqrt(sum(p%q**2))
     call newton_solve(p%w, p%q, p%mu, p%rho, alpha, goal, most, patience, p%r, p%newton, norm, &
         steps)
     certificate%newton_steps = certificate%newton_steps + steps
