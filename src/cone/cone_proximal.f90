@@ -13,7 +13,7 @@ module cone_proximal
 
   integer, parameter, public :: most_loops = 300
   integer, parameter :: few_loops = 60, most_newton = 40
-  !> The first alpha; less where the misfit is: a step leaves about a third of alpha.
+  !> The first alpha, or less: a step leaves a misfit of about a third of alpha.
   real(wp), parameter :: first_alpha = 1.0e-1_wp, alpha_share = 10.0_wp
   !> Newton steps that must halve the map, where a budget is set.
   integer, parameter :: few_patience = 6
@@ -93,8 +93,8 @@ contains
   end subroutine proximal_newton
 
   !> Newton on W itself from no reactions, where steps from the best point are short because
-  !> statuses there are not those of the answer: contacts then close one after the other. budget:
-  !> products with W after which it stops. r is left as it was where the answer is no better.
+  !> statuses there are not those of the answer: contacts then close one after the other. It
+  !> stops after budget products with W; r is left as it was where the answer is no better.
   subroutine newton_from_nothing(options, p, budget, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p

@@ -7,13 +7,14 @@ module cone_strategy
   use cone_newton, only: plan_band, plan_newton, step_products
   use cone_scaled, only: scaled_t, start_method, keep_best, misfit_of, chunk, plain_sweeps, &
       anderson_sweeps, momentum_steps
-  use cone_types, only: cone_options_t, certificate_t, solver_auto, solver_anderson, solver_gs, &
-      solver_nesterov
+  use cone_types, only: cone_options_t, certificate_t, solver_auto, solver_anderson, &
+      solver_gs, solver_nesterov
   implicit none
   private
   public :: choose_method, after_failed_newton, newton_budget, products_left
 
-  integer, parameter :: patience = 30          !< sweeps before the acceleration
+  !> Sweeps before the acceleration: of AUTO, of the other solvers.
+  integer, parameter :: auto_patience = chunk, other_patience = 30
   real(wp), parameter :: first_span = 400.0_wp !< products that must halve the misfit
   real(wp), parameter :: cheap = 80.0_wp       !< products: a Newton of that cost comes first
   !> Accelerated sweeps go on while no more than that is left of them at their rate, or while
@@ -80,10 +81,12 @@ contains
     type(certificate_t), intent(in) :: certificate
     type(scaled_t), intent(inout) :: p
     type(strategy_t), intent(inout) :: strategy
+    integer :: patience
     strategy%newton_due = .false.
     call keep_best(p, certificate)
     if (options%solver == solver_gs) return
-    if (certificate%sweeps == merge(chunk, patience, options%solver == solver_auto)) then
+    patience = merge(auto_patience, other_patience, options%solver == solver_auto)
+    if (certificate%sweeps == patience) then
       call start_method(p, &
           merge(momentum_steps, anderson_sweeps, options%solver == solver_nesterov))
       call start_measure(certificate%products, misfit_of(certificate), strategy)
@@ -97,7 +100,7 @@ contains
       return
     end if
     call ask_for_newton(options, certificate, p, strategy)
-    if (.not. strategy%newton_due .and. certificate%sweeps > merge(chunk, patience, options%solver == solver_auto)) &
+    if (.not. strategy%newton_due .and. certificate%sweeps > patience) &
         call choose_sweeps(options, certificate%products, p, strategy)
   end subroutine choose_method
 
