@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> AUTO against every single solver on generated packings of rigid bodies and on FCLIB files:
 !> products with W and processor seconds of each solve, all in one process.
-!>   auto_against_all [--packings N] [--tol T] [--max-time S] [--write FOLDER]
+!>   auto_against_all [--first K] [--packings N] [--tol T] [--max-time S] [--write FOLDER]
 !>                   [--solvers AUTO,GS,...] [FILE.hdf5 ...]
 !> A solver runs no longer than 1.2 times the fastest before it, unless --all yes.
 !> A line a run; then how often AUTO is within 1.5 and 3 times the best of the single solvers,
-!> in products or seconds, times below 4 ms being equal.
+!> in products or seconds, times below 4 ms being equal. A problem is judged where some solver
+!> met the tolerance. Packings K to N are made.
 program auto_against_all
   use, intrinsic :: iso_fortran_env, only: output_unit
   use base_kinds, only: wp, zero
@@ -29,11 +30,13 @@ program auto_against_all
   character(:), allocatable :: folder, solvers
   real(wp) :: most_seconds
   logical :: all_runs
-  integer :: packings, first_file, k, judged, near, far, missed
+  integer :: first, packings, first_file, k, problems, judged, near, far, missed
   options%tolerance = 1.0e-8_wp
   options%max_sweeps = 100000
   most_seconds = 20.0_wp
+  first = 1
   packings = 200
+  problems = 0
   all_runs = .false.
   solvers = 'AUTO,GS,PROX,NEWTON,ANDERSON,NESTEROV'
   judged = 0
@@ -44,14 +47,14 @@ program auto_against_all
   call read_arguments()
   write (*, '(a,es8.1)') 'tolerance', options%tolerance
   write (*, '(a)') 'problem d contacts solver  products      ms   error  sweeps newton'
-  do k = 1, packings
+  do k = first, packings
     call run_packing(k)
   end do
   do k = first_file, command_argument_count()
     call run_file(argument(k))
   end do
-  write (*, '(4(a,i0))') 'problems ', judged, ', AUTO within 1.5 of the best ', near, &
-      ', beyond 3 ', far, ', missed ', missed
+  write (*, '(5(a,i0))') 'problems ', problems, ', judged ', judged, &
+      ', AUTO within 1.5 of the best ', near, ', beyond 3 ', far, ', missed ', missed
 
 contains
 
@@ -62,6 +65,8 @@ contains
       word = argument(first_file)
       if (word(1:2) /= '--') exit
       select case (word)
+      case ('--first')
+        first = nint(number(argument(first_file + 1)))
       case ('--packings')
         packings = nint(number(argument(first_file + 1)))
       case ('--tol')
@@ -157,6 +162,7 @@ contains
     logical :: solved(solver_nesterov)
     real(wp) :: ratio, limit
     integer :: k, i
+    problems = problems + 1
     solved = .false.
     products = huge(zero)
     seconds = huge(zero)

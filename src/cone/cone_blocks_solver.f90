@@ -10,7 +10,8 @@ module cone_blocks_solver
   use cone_certificate, only: evaluate_certificate, fail_uncertified
   use cone_dense, only: delassus_dense_t
   use cone_local, only: may_wedge
-  use cone_proximal, only: proximal_newton, friction_continuation, most_loops
+  use cone_proximal, only: proximal_newton, newton_from_nothing, friction_continuation, &
+      most_loops
   use cone_scaled, only: scaled_t, scale_problem, sweep_chunk, evaluate_error, keep_best
   use cone_strategy, only: strategy_t, choose_method, after_failed_newton, newton_budget
   use cone_types, only: cone_options_t, certificate_t, cone_work_t, size_cone_work, &
@@ -121,10 +122,16 @@ contains
     kept = p%r
     began = certificate%products
     before = p%best_misfit
-    p%r = p%best
+    if (.not. p%stands_still) p%r = p%best
     call evaluate_error(p, options%tolerance, certificate)
-    call proximal_newton(options, p, .true., merge(most_loops, 0, strategy%proximal_due), &
-        newton_budget(p, began, strategy), certificate)
+    call proximal_newton(options, p, .true., 0, newton_budget(p, began, strategy), certificate)
+    strategy%singular = p%newton%too_long
+    if (.not. certificate%met .and. strategy%anew .and. .not. strategy%singular) then
+      call newton_from_nothing(options, p, newton_budget(p, began, strategy), certificate)
+      strategy%begun_anew = .true.
+    end if
+    if (.not. certificate%met .and. strategy%proximal_due) call proximal_newton(options, p, &
+        .false., most_loops, newton_budget(p, began, strategy), certificate)
     if (certificate%met) return
     call keep_best(p, certificate)
     if (strategy%newtons == 0 .and. some_wedge(p)) then

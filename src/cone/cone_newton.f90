@@ -14,11 +14,16 @@ module cone_newton
   use linalg_order, only: reverse_cuthill_mckee
   implicit none
   private
-  public :: newton_work_t, plan_newton, newton_solve, step_products
+  public :: newton_work_t, plan_band, plan_newton, newton_solve, step_products
 
   type :: newton_work_t
     real(wp) :: flops = zero, numbers = zero  !< of a step; in its matrix
     real(wp) :: products = zero               !< with W, or their worth, so far
+    real(wp) :: first_norm = zero             !< of the map where the last solve began
+    logical :: complete = .false.             !< sparse was asked for, too
+    !> A first step longer than that many times |r| is not taken: W is singular there.
+    real(wp) :: longest = huge(one)
+    logical :: too_long = .false.
     integer :: width = 0                      !< half of the band [unknowns]
     logical :: banded = .false., sparse = .false.
     integer, allocatable :: order(:)          !< (nc) contacts, new -> old
@@ -43,8 +48,9 @@ module cone_newton
 
 contains
 
-  !> The order of the contacts and what a step will cost; no matrix yet.
-  subroutine plan_newton(w, work)
+  !> The order of the contacts on a band, or of a dense matrix, and what a step will cost; no
+  !> matrix yet. In the time of some products with W.
+  subroutine plan_band(w, work)
     type(delassus_blocks_t), intent(in) :: w
     type(newton_work_t), intent(inout) :: work
     integer :: a, n, band
@@ -64,7 +70,18 @@ contains
     work%banded = 6*real(work%width, wp)**2 < real(n, wp)**2
     work%flops = factor_flops(work, n)
     work%numbers = real(n, wp)*merge(3*work%width + 1, n, work%banded)
-    if (n < least_sparse) return
+  end subroutine plan_band
+
+  !> The same, or sparse if that is cheaper: not asked where the band costs no more than what
+  !> every sparse step does.
+  subroutine plan_newton(w, work)
+    type(delassus_blocks_t), intent(in) :: w
+    type(newton_work_t), intent(inout) :: work
+    if (work%complete) return
+    call plan_band(w, work)
+    work%complete = .true.
+    if (w%d*w%contacts < least_sparse) return
+    if (work%flops <= sparse_products*product_weight*size(w%block)) return
     call plan_fronts(work%graph, w%d, work%fronts)
     work%sparse = work%fronts%flops + sparse_products*product_weight*size(w%block) < work%flops
     if (.not. work%sparse) return
@@ -151,6 +168,8 @@ contains
     work%start = r
     call evaluate_map(w, q, mu, rho, alpha, r, work)
     norm = sqrt(sum(work%map**2))
+    work%first_norm = norm
+    work%too_long = .false.
     marked = norm
     do steps = 1, most
       if (norm <= goal) return
@@ -160,6 +179,10 @@ contains
       end if
       call find_step(w, mu, rho, alpha, work, ok)
       if (.not. ok) return
+      if (steps == 1 .and. work%longest < huge(one)) then
+        work%too_long = sum(work%step**2) > work%longest**2*sum(r**2)
+        if (work%too_long) return
+      end if
       length = one
       do k = 1, 12
         work%trial = r + length*work%step

@@ -3,19 +3,22 @@
 !> as long as Newton follows (the PPA of Acary, Bremond & Huber 2018, with another rule for
 !> alpha).
 module cone_proximal
-  use base_kinds, only: wp, zero, one
+  use base_kinds, only: wp, zero, one, half
   use cone_newton, only: newton_solve, step_products
   use cone_scaled, only: scaled_t, evaluate_error, misfit_of
   use cone_types, only: cone_options_t, certificate_t, late
   implicit none
   private
-  public :: proximal_newton, friction_continuation
+  public :: proximal_newton, newton_from_nothing, friction_continuation
 
   integer, parameter, public :: most_loops = 300
   integer, parameter :: few_loops = 60, most_newton = 40
-  real(wp), parameter :: first_alpha = 1.0e-1_wp
+  !> The first alpha, or less: a step leaves a misfit of about a third of alpha.
+  real(wp), parameter :: first_alpha = 1.0e-1_wp, alpha_share = 10.0_wp
   !> Newton steps that must halve the map, where a budget is set.
   integer, parameter :: few_patience = 6
+  !> Factor of alpha where Newton follows; nearer 1 where it has just not.
+  real(wp), parameter :: least_shrink = 0.2_wp
   !> A misfit this much less than where the loop stopped: it begins anew there.
   real(wp), parameter :: much_better = 0.1_wp
 
@@ -36,17 +39,26 @@ contains
     type(certificate_t), intent(inout) :: certificate
     type(certificate_t) :: trial
     real(wp), dimension(size(p%r, 1), size(p%r, 2)) :: best, last
-    real(wp) :: alpha, norm, most_products
-    integer :: outer
+    real(wp) :: alpha, norm, most_products, shrink
+    integer :: outer, patience
     most_products = huge(budget)
-    if (budget < huge(budget)) most_products = certificate%products + budget
+    patience = 2*most_newton
+    if (budget < huge(budget)) then
+      most_products = certificate%products + budget
+      patience = few_patience
+    end if
     best = p%r
     alpha = zero
+    shrink = least_shrink
+    p%stands_still = .false.
     if (.not. plain_first) call resume(p, misfit_of(certificate), best, alpha)
     do outer = 1, loops + merge(1, 0, plain_first)
       if (late(options) .or. certificate%products > most_products) exit
       last = p%r
-      call one_newton(options, p, alpha, most_products, norm, certificate)
+      p%newton%longest = merge(huge(one), p%longest, &
+          alpha > zero .or. most_products >= huge(one))
+      call one_newton(options, p, alpha, most_products, patience, norm, certificate)
+      p%newton%longest = huge(one)
       trial = certificate
       call evaluate_error(p, options%tolerance, trial)
       certificate%products = trial%products
@@ -57,11 +69,19 @@ contains
       if (trial%met) return
       if (.not. alpha > zero) then
         if (loops > 0) call resume(p, misfit_of(certificate), best, alpha)
-      else if (norm > 1.0e-3_wp*alpha) then
-        alpha = min(one, 4.0_wp*alpha)
+      else if (norm > min(1.0e-3_wp*alpha, half*p%newton%first_norm)) then
         p%r = last
+        if (alpha >= one) then
+          p%stands_still = .true.
+          p%alpha = zero
+          alpha = zero
+          exit
+        end if
+        alpha = min(one, 4.0_wp*alpha)
+        shrink = min(half, sqrt(shrink))
       else
-        alpha = 0.2_wp*alpha
+        alpha = shrink*alpha
+        shrink = max(least_shrink, shrink**1.5_wp)
       end if
     end do
     if (alpha > zero) then
@@ -72,35 +92,57 @@ contains
     p%r = best
   end subroutine proximal_newton
 
+  !> Newton on W itself from no reactions, where steps from the best point are short because
+  !> statuses there are not those of the answer: contacts then close one after the other. It
+  !> stops after budget products with W; r is left as it was where the answer is no better.
+  subroutine newton_from_nothing(options, p, budget, certificate)
+    type(cone_options_t), intent(in) :: options
+    type(scaled_t), intent(inout) :: p
+    real(wp), intent(in) :: budget
+    type(certificate_t), intent(inout) :: certificate
+    type(certificate_t) :: trial
+    real(wp) :: kept(size(p%r, 1), size(p%r, 2)), norm
+    kept = p%r
+    p%r = zero
+    call one_newton(options, p, zero, certificate%products + budget, &
+        few_patience, norm, certificate)
+    trial = certificate
+    call evaluate_error(p, options%tolerance, trial)
+    certificate%products = trial%products
+    if (misfit_of(trial) < misfit_of(certificate) .or. trial%met) then
+      certificate = trial
+    else
+      p%r = kept
+    end if
+  end subroutine newton_from_nothing
+
   !> alpha and r with which the proximal loop begins or goes on; best: that of least misfit.
   pure subroutine resume(p, misfit, best, alpha)
     type(scaled_t), intent(inout) :: p
     real(wp), intent(in) :: misfit, best(:, :)
     real(wp), intent(out) :: alpha
-    alpha = merge(p%alpha, first_alpha, p%alpha > zero)
+    alpha = p%alpha
+    if (.not. alpha > zero) alpha = min(first_alpha, alpha_share*misfit)
     p%r = best
     if (.not. p%alpha > zero) return
     if (misfit > much_better*p%travel_misfit) p%r = p%travel
   end subroutine resume
 
   !> Newton on W + alpha I from r of p, its steps and products counted; as many steps as fit in
-  !> most_products, but some.
-  subroutine one_newton(options, p, alpha, most_products, norm, certificate)
+  !> most_products, but some. patience steps must halve the map.
+  subroutine one_newton(options, p, alpha, most_products, patience, norm, certificate)
     type(cone_options_t), intent(in) :: options
     type(scaled_t), intent(inout) :: p
     real(wp), intent(in) :: alpha, most_products
+    integer, intent(in) :: patience
     real(wp), intent(out) :: norm
     type(certificate_t), intent(inout) :: certificate
     real(wp) :: goal
-    integer :: steps, most, patience
+    integer :: steps, most
     most = most_newton
-    patience = 2*most_newton
-    if (most_products < huge(goal)) then
-      most = min(most, max(few_patience, nint((most_products - certificate%products) &
-          /step_products(p%w, p%newton))))
-      patience = few_patience
-    end if
-    goal = 0.1_wp*options%tolerance*max(sqrt(sum(p%r**2)), sqrt(sum(p%q**2)))
+    if (most_products < huge(goal)) most = min(most, max(few_patience, &
+        nint((most_products - certificate%products)/step_products(p%w, p%newton))))
+    goal = 0.1_wp*options%tolerance*sqrt(sum(p%q**2))
     call newton_solve(p%w, p%q, p%mu, p%rho, alpha, goal, most, patience, p%r, p%newton, norm, &
         steps)
     certificate%newton_steps = certificate%newton_steps + steps

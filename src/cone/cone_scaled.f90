@@ -39,6 +39,9 @@ module cone_scaled
     !> Where the proximal loop goes on: alpha (0 = it has not begun), r, the best misfit then.
     real(wp) :: alpha = zero, travel_misfit = huge(one)
     real(wp), allocatable :: travel(:, :)
+    logical :: stands_still = .false.                    !< it did not move, whatever alpha
+    !> Of the first step of a Newton on W itself within a budget, over |r|: see cone_newton.
+    real(wp) :: longest = huge(one)
   end type scaled_t
 
 contains
