@@ -33,7 +33,6 @@ contains
     logical :: ended, long
     call start_deck(deck)
     call load_file(path, deck%file(1), status)
-    if (failed(status)) status%code = status_deck    ! the command names a deck that is none
     if (failed(status)) return
     long = .false.
     call read_file(deck, 1, 1, overrides, long, ended)

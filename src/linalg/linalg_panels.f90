@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Dense panels of a supernodal factor: a panel [A11; A21] holds some columns, lower triangle,
 !> and the rows below them; its factor is L11 L11' = A11, L21 = A21 L11'^-1, with 1/L on the
-!> diagonal. Products go by strips of rows, which in plain Fortran is more than half as fast as a tuned
-!> BLAS. A pass of a solve reads a panel once, with x of its own columns and y of the rows below.
-!> Large panels are split among threads by strips of fixed size; every entry has the same sums for
-!> any number of threads and any width of vectors.
+!> diagonal. Products go by strips of rows, in plain Fortran at half the rate of a tuned BLAS or
+!> more. A pass of a solve reads each panel once, x of its own columns and y of the rows below.
+!> Large panels are split among threads by strips of fixed size; every entry has the same sums
+!> for any number of threads and any width of vectors.
 module linalg_panels
   use base_kinds, only: wp, zero, one
   use linalg_tile, only: subtract_strip, strip_rows

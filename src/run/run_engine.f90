@@ -26,8 +26,8 @@ contains
     call run%solver%analyse(run%system%graph, size(run%b, 1), kept_nodes(run), status)
   end subroutine analyse_matrix
 
-  !> LDLT or, where the work is that of a large body, dense panels where they take less time, and
-  !> no factor where it would be a new one in each step and takes more; neither knows null
+  !> LDLT or, where the work is that of a large body, dense panels where they take less time,
+  !> and no factor where it would be a new one in each step and takes more; neither knows null
   !> pivots.
   subroutine choose_engine(run, status)
     type(run_t), intent(inout) :: run

@@ -362,15 +362,16 @@ def wait_until(condition, seconds=120):
 
 
 def called_wrongly():
-    """Errors of the call and the deck on several ranks: exit code 2 of the first rank, one message."""
+    """Errors of the call (exit code 3) and of the deck (2) on several ranks: one message, of the
+    first rank."""
     good = bars("good")
     cases = [
-        ("unknown option", [good, "--nonsense"]),
-        ("--threads needs", [good, "--threads"]),
-        ("--threads needs a number", [good, "--threads", "0"]),
-        ("no deck given", []),
-        ("cannot read", [os.path.join(TMP, "none.k")]),
-        ("no such parameter", [good, "-D", "none=1.0"]),
+        (3, "unknown option", [good, "--nonsense"]),
+        (3, "--threads needs", [good, "--threads"]),
+        (3, "--threads needs a number", [good, "--threads", "0"]),
+        (3, "no deck given", []),
+        (3, "cannot read", [os.path.join(TMP, "none.k")]),
+        (2, "no such parameter", [good, "-D", "none=1.0"]),
     ]
     for word, card in (
         ("THREADS", "%10s%10s%10s%10s%10s%10s%10s\n" % ("AUTO", "", "", "", "", "", "0")),
@@ -378,8 +379,8 @@ def called_wrongly():
         ("DIAGONAL", "%10s\n" % "DIAGONAL"),
     ):
         deck = with_cards(shutil.copy(good, os.path.join(TMP, word + ".k")), "*BIPACT_SOLVER\n" + card)
-        cases.append((word, [deck]))
-    for word, command in cases:
+        cases.append((2, word, [deck]))
+    for code, word, command in cases:
         for ranks in (2, 3):
             folder = os.path.join(TMP, "refused")
             done = subprocess.run(
@@ -390,7 +391,7 @@ def called_wrongly():
             )
             said = done.stdout + done.stderr
             what = "%s on %d ranks: exit code %d: %s" % (word, ranks, done.returncode, said)
-            check(done.returncode == 2 and word in said and said.count("bipact:") == 1, what)
+            check(done.returncode == code and word in said and said.count("bipact:") == 1, what)
             check(re.search(r"\[\d+,1\],0\]", said), "it is the first rank that fails: " + what)
             check(not os.path.exists(folder), "no file: " + what)
 
