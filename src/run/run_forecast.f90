@@ -17,8 +17,8 @@ module run_forecast
 
   !> Shares of the measured rate that kinds of work reach, from runs of 1e2 to 1e6 dofs
   !> (bench/forecast.py).
-  real(wp), parameter :: of_factor = 0.33_wp, of_panels = 0.65_wp, of_solve = 0.25_wp, &
-      of_product = 0.4_wp, of_law = 0.45_wp, of_dense = 0.5_wp
+  real(wp), parameter :: of_factor = 0.33_wp, of_panels = 0.65_wp, of_wide = 1.3_wp, &
+      of_solve = 0.25_wp, of_product = 0.4_wp, of_law = 0.45_wp, of_dense = 0.5_wp
   integer(i8), parameter :: of_tables = 1500000_i8  ! of tables and log
   !> Gflop/s where the run is too short to measure them [s].
   real(wp), parameter :: usual_rate = 5.0_wp, worth_a_look = 1.0_wp
@@ -51,8 +51,7 @@ contains
     real(wp) :: factor, solve, product, tangent, contact, factors, passes
     call count_passes(run, factors, passes)
     associate (r => forecast%rate)
-      factor = work_of(run%solver)/(r*merge(of_panels, of_factor, &
-          run%solver%info%engine == 'SUPERNODAL'))
+      factor = work_of(run%solver)/(r*factor_share(run))
       solve = solve_work(run)/(r*of_solve)
       call element_work(run, product, tangent)
       product = product/(r*of_product)
@@ -64,6 +63,14 @@ contains
         tangent) + energy_share(run)*1.5_wp*product
     forecast%whole = forecast%start + (run%plan%full_steps - run%state%cycle)*forecast%step
   end subroutine estimate_times
+
+  !> Of the measured rate, what a factor reaches.
+  pure real(wp) function factor_share(run)
+    type(run_t), intent(in) :: run
+    factor_share = of_factor
+    if (run%solver%info%engine /= 'SUPERNODAL') return
+    factor_share = merge(of_wide, of_panels, run%solver%info%wide)
+  end function factor_share
 
   !> Gflop of a solve: two operations for each number of the factor in each of two passes; of
   !> conjugate gradients those of a few iterations, twice where contact comes between.

@@ -381,7 +381,7 @@ def called_wrongly():
         deck = with_cards(shutil.copy(good, os.path.join(TMP, word + ".k")), "*BIPACT_SOLVER\n" + card)
         cases.append((2, word, [deck]))
     for code, word, command in cases:
-        for ranks in (2, 3):
+        for ranks in range(2, MOST + 1):
             folder = os.path.join(TMP, "refused")
             done = subprocess.run(
                 mpirun(ranks, *command, *(["-o", folder] if command else [])),

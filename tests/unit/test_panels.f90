@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Products of panels: strips with vectors of two and of four numbers give the same digits, those
-!> of sums taken one product after another; panels of any width and height.
+!> Products of panels: strips with vectors of two and of four numbers give the same digits,
+!> those of sums taken one product after another; panels of any width and height.
 program test_panels
   use base_kinds, only: wp, zero, one
   use base_strings, only: to_text
@@ -39,7 +39,7 @@ contains
     drawn = 1 + int(r*n)
   end function drawn
 
-  !> c = c - L M' of m rows and some columns, by strips and by single sums. The sums are the same
+  !> c = c - L M' of m rows and some columns, by strips and by single sums, which are the same
   !> digit for digit where no product is fused with its sum, which the compiler may do where the
   !> processor was named to it: then within their round-off.
   subroutine check_strips(m, depth, wrong, checked)
@@ -71,11 +71,11 @@ contains
     if (any(abs(c(m + 1, :) - start(m + 1, :)) > zero)) wrong = wrong + 1  ! the row below
   end subroutine check_strips
 
-  !> A panel of some columns and rows below: L L' is what was given, and what is subtracted below
-  !> is L21 L21', with both kinds of vectors in the same digits.
+  !> A panel of some columns and rows below: L L' is what was given, and what is subtracted
+  !> below is L21 L21', with both kinds of vectors in the same digits.
   subroutine check_panel(width, below)
     integer, intent(in) :: width, below
-    real(wp), allocatable :: a(:, :), panel(:, :), update(:, :), other(:, :), rest(:, :), l(:, :)
+    real(wp), allocatable, dimension(:, :) :: a, panel, update, other, rest, l
     real(wp) :: off
     integer :: j, lost
     allocate (a(width + below, width))
