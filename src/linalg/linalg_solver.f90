@@ -39,6 +39,7 @@ module linalg_solver
     character(:), allocatable :: order
     integer(i8) :: multiplications = 0_i8  !< per factorisation, in node blocks
     integer(i8) :: factor_bytes = 0_i8
+    integer(i8) :: front_bytes = 0_i8      !< beside it while it is made
     integer :: null_pivots = 0
     logical :: wide = .false.              !< products by vectors of four numbers
     integer(i8) :: iterations = 0_i8       !< of all solves so far, where an engine iterates
@@ -219,7 +220,7 @@ contains
     type(status_t), intent(inout) :: status
     integer(i8), parameter :: small = 100000000_i8
     integer(i8) :: needed, there
-    needed = solver%info%factor_bytes + inverse_bytes(solver)
+    needed = solver%info%factor_bytes + solver%info%front_bytes + inverse_bytes(solver)
     if (needed < small) return    ! not worth asking the system
     there = machine_memory()
     if (needed < there) return

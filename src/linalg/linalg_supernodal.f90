@@ -16,7 +16,7 @@ module linalg_supernodal
   use linalg_solver, only: solver_t, demand_memory, lose_pivot, check_graph, &
       check_matrix, check_vectors
   use linalg_subtrees, only: subtrees_t, find_subtrees
-  use linalg_supernodes, only: supernodes_t, find_supernodes, find_parents
+  use linalg_supernodes, only: supernodes_t, find_supernodes, find_parents, front_bytes
   implicit none
   private
 
@@ -85,6 +85,7 @@ contains
     this%info%factor_bytes = 8_i8*(this%panel(this%supernodes%n + 1) - 1_i8) &
         + 16_i8*this%supernodes%n + 4_i8*size(this%supernodes%row, kind=i8) &
         + this%schur%bytes()
+    this%info%front_bytes = front_bytes(this%supernodes, d)
     call demand_memory(this, status)
     if (failed(status)) return
     this%info%wide = .false.

@@ -3,13 +3,13 @@
 !> eliminated as one dense panel. Neighbours in the elimination tree are joined where that adds
 !> few zeros (Ashcraft & Grimes 1989).
 module linalg_supernodes
-  use base_kinds, only: wp
+  use base_kinds, only: wp, i8
   use base_sort, only: sort_integers
   use linalg_graph, only: graph_t
   use linalg_symbolic, only: symbolic_factor, order_tree
   implicit none
   private
-  public :: find_supernodes, find_parents
+  public :: find_supernodes, find_parents, front_bytes
 
   !> Columns first(s)..first(s+1)-1 (nodes, new numbers) have below them the rows
   !> row(start(s):start(s+1)-1), in increasing order. What the elimination of s changes there
@@ -30,6 +30,31 @@ module linalg_supernodes
   real(wp), parameter :: zeros_narrow = 0.4_wp, zeros_middling = 0.1_wp, zeros_wide = 0.05_wp
 
 contains
+
+  !> The most bytes of updates that stand at one time, with d unknowns a node, where supernodes
+  !> are eliminated in their order: each is there until its parent has taken it.
+  pure integer(i8) function front_bytes(this, d) result(most)
+    type(supernodes_t), intent(in) :: this
+    integer, intent(in) :: d
+    integer(i8) :: standing
+    integer :: s, c
+    standing = 0_i8
+    most = 0_i8
+    do s = 1, this%n
+      standing = standing + update_bytes(s)
+      most = max(most, standing)
+      c = this%first_child(s)
+      do while (c > 0)
+        standing = standing - update_bytes(c)
+        c = this%sibling(c)
+      end do
+    end do
+  contains
+    pure integer(i8) function update_bytes(s)
+      integer, intent(in) :: s
+      update_bytes = 8_i8*(d*int(this%start(s + 1) - this%start(s), i8))**2
+    end function update_bytes
+  end function front_bytes
 
   !> Supernodes of the first `leading` nodes of an order (new -> old), d unknowns each; the
   !> order is changed to another with the same factor, in which each supernode is one piece.

@@ -40,7 +40,7 @@ contains
     end if
     forecast%bytes = peak_memory()
     if (.not. is_made) forecast%bytes = forecast%bytes + run%solver%info%factor_bytes &
-        + inverse_bytes(run%solver) + front_bytes(run) + of_tables
+        + run%solver%info%front_bytes + inverse_bytes(run%solver) + of_tables
   end subroutine make_forecast
 
   !> Times at forecast%rate.
@@ -172,13 +172,6 @@ contains
     contact_work = 1.0e-9_wp*(two*dofs**2 + 0.5_wp*12.0_wp*(dofs/two)**2)
     if (run%solver%takes_diagonal) contact_work = 1.0e-9_wp*50.0_wp*dofs
   end function contact_work
-
-  !> Bytes of the fronts of dense panels beside the factor, of the size of the factor itself.
-  pure integer(i8) function front_bytes(run)
-    type(run_t), intent(in) :: run
-    front_bytes = 0_i8
-    if (run%solver%info%engine == 'SUPERNODAL') front_bytes = run%solver%info%factor_bytes
-  end function front_bytes
 
   !> One line for plan and log.
   subroutine write_forecast(forecast, unit)
