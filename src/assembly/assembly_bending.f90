@@ -4,6 +4,7 @@
 !> A triangle has no such mode alone; with a neighbour it has those of the quadrilateral that
 !> both make.
 module assembly_bending
+  use assembly_blocks, only: stored_at
   use assembly_system, only: system_t
   use base_archive, only: archive_t
   use base_kinds, only: wp, zero, one, half
@@ -213,8 +214,8 @@ contains
         call add_modes(energy_of_modes(system%modes(:, e), a), &
             bending_energy(x, a, modulus), sums)
       else
-        call add_modes(quad_mode_energy(block%stiffness(:, :, e - block%first + 1), a), &
-            bending_energy(x, a, modulus), sums)
+        call add_modes(quad_mode_energy(block%stiffness(:, :, &
+            stored_at(block, e - block%first + 1)), a), bending_energy(x, a, modulus), sums)
       end if
     end associate
   end subroutine add_quadrilateral

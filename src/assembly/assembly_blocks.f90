@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The elements in blocks of one type and part, each with its nodes and stiffness.
 module assembly_blocks
+  use assembly_classes, only: classes_t, is_worth_classes, finish_classes
   use assembly_ring, only: ring_unknowns
   use base_kinds, only: wp, zero
   use model_data, only: model_t
@@ -15,11 +16,18 @@ module assembly_blocks
     integer, allocatable :: node(:, :)      !< (nodes, n) rows of nodes
     !> (m, m, n) stiffness of the other nodes relative to node 1, m = dim (nodes - 1) [F/L]: a
     !> translation of the element drops out before anything is multiplied, so a flying body has
-    !> no internal force at all. Of a ring that of the unknowns of assembly_ring.
+    !> no internal force at all. Of a ring that of the unknowns of assembly_ring. With classes
+    !> (m, m, classes): element e has that of its class.
     real(wp), allocatable :: stiffness(:, :, :)
+    !> (n) only on a regular mesh: elements of one class have the same matrix, bit for bit
+    integer, allocatable :: class(:)
   end type element_block_t
 
-  public :: make_blocks, assemble_stiffness, find_stiffness, whole_stiffness, largest_stiffness
+  !> Elements whose stiffness is found before it is sorted.
+  integer, parameter :: chunk = 256
+
+  public :: make_blocks, assemble_stiffness, find_stiffness, sort_stiffness, stored_at, &
+      whole_stiffness, largest_stiffness
 
 contains
 
@@ -48,12 +56,71 @@ contains
   subroutine assemble_stiffness(model, block)
     type(model_t), intent(in) :: model
     type(element_block_t), intent(inout) :: block(:)
-    integer :: b
+    integer :: b, n
     do b = 1, size(block)
-      if (.not. block(b)%is_rigid) call find_stiffness(model, block(b), 1, &
-          size(block(b)%node, 2), block(b)%stiffness)
+      if (block(b)%is_rigid) cycle
+      n = size(block(b)%node, 2)
+      if (is_worth_classes(order_of(size(model%x, 1), block(b)), n)) then
+        call find_classes(model, block(b))
+      else
+        call find_stiffness(model, block(b), 1, n, block(b)%stiffness)
+      end if
     end do
   end subroutine assemble_stiffness
+
+  !> Unknowns of an element whose stiffness is kept.
+  pure integer function order_of(d, block)
+    integer, intent(in) :: d
+    type(element_block_t), intent(in) :: block
+    order_of = d*(block%nodes - 1)
+    if (block%is_ring) order_of = size(ring_unknowns(block%nodes))
+  end function order_of
+
+  !> Stiffness of a block, one of each class: memory that no class fills is not touched.
+  subroutine find_classes(model, block)
+    type(model_t), intent(in) :: model
+    type(element_block_t), intent(inout) :: block
+    type(classes_t) :: classes
+    real(wp), allocatable :: some(:, :, :)
+    integer :: from, e, n, m
+    n = size(block%node, 2)
+    m = order_of(size(model%x, 1), block)
+    allocate (block%class(n), block%stiffness(m, m, n))
+    call classes%begin(n)
+    do from = 1, n, chunk
+      call find_stiffness(model, block, from, min(n, from + chunk - 1), some)
+      do e = from, min(n, from + chunk - 1)
+        call classes%add(some(:, :, e - from + 1), block%stiffness, block%class(e))
+      end do
+    end do
+    call finish_classes(classes%n, block%stiffness, block%class)
+  end subroutine find_classes
+
+  !> The same of a block that has the stiffness of all its elements.
+  pure subroutine sort_stiffness(block)
+    type(element_block_t), intent(inout) :: block
+    type(classes_t) :: classes
+    real(wp), allocatable :: ke(:, :)
+    integer :: e
+    associate (n => size(block%node, 2), m => size(block%stiffness, 1))
+      if (.not. is_worth_classes(m, n)) return
+      allocate (block%class(n), ke(m, m))
+      call classes%begin(n)
+      do e = 1, n
+        ke = block%stiffness(:, :, e)
+        call classes%add(ke, block%stiffness, block%class(e))
+      end do
+    end associate
+    call finish_classes(classes%n, block%stiffness, block%class)
+  end subroutine sort_stiffness
+
+  !> Where the stiffness of element e of a block is kept.
+  pure integer function stored_at(block, e)
+    type(element_block_t), intent(in) :: block
+    integer, intent(in) :: e
+    stored_at = e
+    if (allocated(block%class)) stored_at = block%class(e)
+  end function stored_at
 
   !> That of elements from..to of a block, its stiffness or a part of it.
   subroutine find_stiffness(model, block, from, to, stiffness)

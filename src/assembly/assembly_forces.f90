@@ -5,7 +5,8 @@
 module assembly_forces
   use base_kinds, only: wp, zero, one, half
   use element_base, only: most_nodes
-  use assembly_blocks, only: element_block_t
+  use assembly_blocks, only: element_block_t, stored_at
+  use assembly_four, only: subtract_four
   use assembly_ring, only: subtract_ring_forces, ring_product
   use assembly_solid, only: subtract_solid_force, add_solid_energy
   use assembly_system, only: system_t
@@ -81,94 +82,80 @@ contains
     do k = 1, size(elements)
       associate (block => system%block(system%block_of(elements(k))))
         if (block%is_rigid) cycle
-        call subtract_block(system, block, elements(k) - block%first + 1, 1, &
-            weight(min(k, size(weight))), u, f)
+        call subtract_block(system, block, elements(k) - block%first + 1, &
+            elements(k) - block%first + 1, weight(min(k, size(weight))), u, f)
       end associate
     end do
   end subroutine subtract_weighted_forces
 
-  !> The same of n elements of a block from the one at `from`, by the kernel of its type.
-  subroutine subtract_block(system, block, from, n, factor, u, f)
+  !> The same of elements from..to of a block, by the kernel of its type, to which a class that
+  !> is not allocated is not present.
+  subroutine subtract_block(system, block, from, to, factor, u, f)
     type(system_t), intent(in) :: system
     type(element_block_t), intent(in) :: block
-    integer, intent(in) :: from, n
+    integer, intent(in) :: from, to
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
     if (system%threads > 1 .and. .not. block%is_ring) then
-      if (is_worth_threads(system%threads, n, system%dim*(block%nodes - 1), 1)) then
-        call subtract_stiffness_forces(system%threads, system%dim, block%nodes, n, &
-            block%node(1, from), block%stiffness(1, 1, from), factor, u, f)
+      if (is_worth_threads(system%threads, to - from + 1, system%dim*(block%nodes - 1), &
+          1)) then
+        call subtract_stiffness_forces(system%threads, system%dim, block, from, to, factor, u, &
+            f)
         return
       end if
     end if
     if (block%is_ring) then
-      call subtract_ring_forces(block%node(:, from:from + n - 1), &
-          block%stiffness(:, :, from:from + n - 1), factor, u, f)
+      call subtract_ring_forces(from, to, block%node, block%stiffness, factor, u, f, &
+          block%class)
     else if (system%dim == 2 .and. block%nodes == 4) then
-      call four_nodes(n, system%n, block%node(1, from), block%stiffness(1, 1, from), factor, &
-          u, f)
+      call four_nodes(from, to, system%n, block%node, block%stiffness, factor, u, f, &
+          block%class)
     else
-      call any_nodes(n, system%n, system%dim, block%nodes, block%node(1, from), &
-          block%stiffness(1, 1, from), factor, u, f)
+      call any_nodes(from, to, system%n, system%dim, block%nodes, block%node, &
+          block%stiffness, factor, u, f, block%class)
     end if
   end subroutine subtract_block
 
   !> Four nodes in the plane.
-  pure subroutine four_nodes(elements, n, node, k, factor, u, f)
-    integer, intent(in) :: elements, n
-    integer, intent(in) :: node(4, elements)
-    real(wp), intent(in) :: k(6, 6, elements)
+  pure subroutine four_nodes(from, to, n, node, k, factor, u, f, class)
+    integer, intent(in) :: from, to, n
+    integer, intent(in) :: node(4, *)
+    real(wp), intent(in) :: k(6, 6, *)
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(2, n)
     real(wp), intent(inout) :: f(2, n)
-    real(wp) :: d(6), g(6)
-    integer :: e, i, i1, i2, i3, i4
-    do e = 1, elements
-      i1 = node(1, e)
-      i2 = node(2, e)
-      i3 = node(3, e)
-      i4 = node(4, e)
-      d(1) = factor*(u(1, i2) - u(1, i1))
-      d(2) = factor*(u(2, i2) - u(2, i1))
-      d(3) = factor*(u(1, i3) - u(1, i1))
-      d(4) = factor*(u(2, i3) - u(2, i1))
-      d(5) = factor*(u(1, i4) - u(1, i1))
-      d(6) = factor*(u(2, i4) - u(2, i1))
-      do i = 1, 6
-        g(i) = k(i, 1, e)*d(1) + k(i, 2, e)*d(2) + k(i, 3, e)*d(3) + k(i, 4, e)*d(4) &
-            + k(i, 5, e)*d(5) + k(i, 6, e)*d(6)
-      end do
-      f(1, i1) = f(1, i1) + (g(1) + g(3) + g(5))
-      f(2, i1) = f(2, i1) + (g(2) + g(4) + g(6))
-      f(1, i2) = f(1, i2) - g(1)
-      f(2, i2) = f(2, i2) - g(2)
-      f(1, i3) = f(1, i3) - g(3)
-      f(2, i3) = f(2, i3) - g(4)
-      f(1, i4) = f(1, i4) - g(5)
-      f(2, i4) = f(2, i4) - g(6)
+    integer, intent(in), optional :: class(*)
+    integer :: e, j
+    do e = from, to
+      j = e
+      if (present(class)) j = class(e)
+      call subtract_four(n, node(1, e), k(1, 1, j), factor, u, f)
     end do
   end subroutine four_nodes
 
   !> Any element.
-  pure subroutine any_nodes(elements, n, dim, nodes, node, k, factor, u, f)
-    integer, intent(in) :: elements, n, dim, nodes
-    integer, intent(in) :: node(nodes, elements)
-    real(wp), intent(in) :: k(dim*(nodes - 1), dim*(nodes - 1), elements)
+  pure subroutine any_nodes(from, to, n, dim, nodes, node, k, factor, u, f, class)
+    integer, intent(in) :: from, to, n, dim, nodes
+    integer, intent(in) :: node(nodes, *)
+    real(wp), intent(in) :: k(dim*(nodes - 1), dim*(nodes - 1), *)
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(dim, n)
     real(wp), intent(inout) :: f(dim, n)
+    integer, intent(in), optional :: class(*)
     real(wp), dimension(3*most_nodes) :: d, g     ! of a size that needs no memory anew
     real(wp) :: total
-    integer :: e, i, c, m
+    integer :: e, i, j, c, m
     m = dim*(nodes - 1)
-    do e = 1, elements
+    do e = from, to
+      j = e
+      if (present(class)) j = class(e)
       do i = 2, nodes
         do c = 1, dim
           d(dim*(i - 2) + c) = factor*(u(c, node(i, e)) - u(c, node(1, e)))
         end do
       end do
-      call multiply(m, k(:, :, e), d, g)
+      call multiply(m, k(1, 1, j), d, g)
       do c = 1, dim
         total = zero
         do i = 2, nodes
@@ -268,22 +255,20 @@ contains
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: total
-    integer :: i
+    integer :: e, i
     if (block%is_rigid) return
-    if (block%is_ring) then
-      do i = 1, size(block%node, 2)
-        total = total + factor*ring_product(block%node(:, i), block%stiffness(:, :, i), u)
-      end do
-    else if (system%dim == 2 .and. block%nodes == 4) then
-      do i = 1, size(block%node, 2)
-        total = total + factor*product_of_four(system%n, block%node(1, i), &
+    do e = 1, size(block%node, 2)
+      i = e
+      if (allocated(block%class)) i = block%class(e)
+      if (block%is_ring) then
+        total = total + factor*ring_product(block%node(:, e), block%stiffness(:, :, i), u)
+      else if (system%dim == 2 .and. block%nodes == 4) then
+        total = total + factor*product_of_four(system%n, block%node(1, e), &
             block%stiffness(1, 1, i), u)
-      end do
-    else
-      do i = 1, size(block%node, 2)
-        total = total + factor*product_of_any(block%node(:, i), block%stiffness(:, :, i), u)
-      end do
-    end if
+      else
+        total = total + factor*product_of_any(block%node(:, e), block%stiffness(:, :, i), u)
+      end if
+    end do
   end subroutine add_products
 
   !> u.C u [F L].
@@ -348,7 +333,7 @@ contains
       element_product = zero
       if (block%is_rigid) return
       associate (node => block%node(:, e - block%first + 1), &
-          k => block%stiffness(:, :, e - block%first + 1))
+          k => block%stiffness(:, :, stored_at(block, e - block%first + 1)))
         if (block%is_ring) then
           element_product = ring_product(node, k, u)
         else if (system%dim == 2 .and. block%nodes == 4) then

@@ -34,22 +34,25 @@ contains
     end do
   end subroutine gather
 
-  !> f = f - factor * K u of elements with the nodes node (nodes, elements) and the stiffness k
-  !> of their unknowns; u, f (2, n).
-  pure subroutine subtract_ring_forces(node, k, factor, u, f)
-    integer, intent(in) :: node(:, :)
+  !> f = f - factor * K u of elements from..to of those with the nodes node (nodes, elements);
+  !> k: stiffness of the unknowns of each, or of each class; u, f (2, n).
+  pure subroutine subtract_ring_forces(from, to, node, k, factor, u, f, class)
+    integer, intent(in) :: from, to, node(:, :)
     real(wp), intent(in) :: k(:, :, :)
     real(wp), intent(in) :: factor, u(:, :)
     real(wp), intent(inout) :: f(:, :)
+    integer, intent(in), optional :: class(:)
     real(wp) :: d(most), g(most), total
-    integer :: e, i, m, n
+    integer :: e, i, j, m, n
     n = size(node, 1)
     m = 2*n - 1
-    do e = 1, size(node, 2)
+    do e = from, to
+      j = e
+      if (present(class)) j = class(e)
       call gather(node(:, e), factor, u, d(:m))
       g(:m) = zero
       do i = 1, m
-        g(:m) = g(:m) + k(:, i, e)*d(i)
+        g(:m) = g(:m) + k(:, i, j)*d(i)
       end do
       total = zero
       f(1, node(1, e)) = f(1, node(1, e)) - g(1)

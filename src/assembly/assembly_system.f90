@@ -6,7 +6,7 @@ module assembly_system
   use base_kinds, only: wp, zero, one
   use base_status, only: status_t, failed
   use assembly_blocks, only: element_block_t, make_blocks, assemble_stiffness, &
-      whole_stiffness, largest_stiffness
+      stored_at, whole_stiffness, largest_stiffness
   use assembly_entries, only: element_cliques, elements_at, set_one, clear_held, &
       diagonal_product
   use assembly_mass, only: assemble_mass, mass_directions, redistribution_targets
@@ -354,11 +354,12 @@ contains
     d = system%dim
     associate (block => system%block(system%block_of(e)))
       if (block%is_rigid) return
-      associate (node => block%node(:, e - block%first + 1))
+      associate (node => block%node(:, e - block%first + 1), &
+          stiffness => block%stiffness(:, :, stored_at(block, e - block%first + 1)))
         if (block%is_ring) then
-          call whole_ring_stiffness(factor, block%stiffness(:, :, e - block%first + 1), ke)
+          call whole_ring_stiffness(factor, stiffness, ke)
         else
-          call whole_stiffness(d, factor, block%stiffness(:, :, e - block%first + 1), ke)
+          call whole_stiffness(d, factor, stiffness, ke)
         end if
         do j = 1, block%nodes
           do i = 1, block%nodes

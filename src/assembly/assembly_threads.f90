@@ -3,6 +3,7 @@
 !> and what they add to the nodes is added in the order of the elements, as with one thread: no
 !> digit depends on the number of threads.
 module assembly_threads
+  use assembly_blocks, only: element_block_t
   use base_kinds, only: wp, zero
   use linalg_graph, only: graph_t, block_matrix_t
   use solid_block, only: solid_t, force_rule_t, element_force, element_tangent, relative, &
@@ -26,26 +27,24 @@ contains
     if (threads > 1) is_worth_threads = real(elements, wp)*unknowns**2*work > least
   end function is_worth_threads
 
-  !> f = f - factor * K u of n elements: k (m, m, n) of the nodes but the first relative to it,
-  !> u and f (dim, *).
-  subroutine subtract_stiffness_forces(threads, dim, nodes, n, node, k, factor, u, f)
-    integer, intent(in) :: threads, dim, nodes, n
-    integer, intent(in) :: node(nodes, n)
-    real(wp), intent(in) :: k(dim*(nodes - 1), dim*(nodes - 1), n)
+  !> f = f - factor * K u of elements from..to of a block; u and f (dim, *).
+  subroutine subtract_stiffness_forces(threads, dim, block, from, to, factor, u, f)
+    integer, intent(in) :: threads, dim, from, to
+    type(element_block_t), intent(in) :: block
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
     real(wp), intent(inout) :: f(:, :)
     real(wp), allocatable :: g(:, :)
-    integer :: from, last
+    integer :: first, last
     !$omp parallel num_threads(threads) private(g, last)
-    allocate (g(dim*(nodes - 1), many))
+    allocate (g(dim*(block%nodes - 1), many))
     !$omp do ordered schedule(dynamic, 1)
-    do from = 1, n, many
-      last = min(n, from + many - 1)
-      call stiffness_forces(dim, nodes, last - from + 1, node(1, from), k(1, 1, from), factor, &
-          u, g)
+    do first = from, to, many
+      last = min(to, first + many - 1)
+      call stiffness_forces(dim, block%nodes, first, last, block%node, block%stiffness, &
+          factor, u, g, block%class)
       !$omp ordered
-      call subtract_forces(dim, nodes, last - from + 1, node(1, from), g, f)
+      call subtract_forces(dim, block%nodes, last - first + 1, block%node(1, first), g, f)
       !$omp end ordered
     end do
     !$omp end do
@@ -53,29 +52,33 @@ contains
     !$omp end parallel
   end subroutine subtract_stiffness_forces
 
-  !> g = factor * K u of the nodes but the first.
-  pure subroutine stiffness_forces(dim, nodes, n, node, k, factor, u, g)
-    integer, intent(in) :: dim, nodes, n
-    integer, intent(in) :: node(nodes, n)
-    real(wp), intent(in) :: k(dim*(nodes - 1), dim*(nodes - 1), n)
+  !> g = factor * K u of the nodes but the first of elements from..to; k: of each, or of each
+  !> class.
+  pure subroutine stiffness_forces(dim, nodes, from, to, node, k, factor, u, g, class)
+    integer, intent(in) :: dim, nodes, from, to
+    integer, intent(in) :: node(nodes, *)
+    real(wp), intent(in) :: k(dim*(nodes - 1), dim*(nodes - 1), *)
     real(wp), intent(in) :: factor
     real(wp), intent(in) :: u(:, :)
-    real(wp), intent(out) :: g(dim*(nodes - 1), n)
+    real(wp), intent(out) :: g(dim*(nodes - 1), from:to)
+    integer, intent(in), optional :: class(*)
     real(wp) :: d(dim*(nodes - 1))
-    integer :: e, i, j, c
-    do e = 1, n
+    integer :: e, i, j, c, at
+    do e = from, to
+      at = e
+      if (present(class)) at = class(e)
       do i = 2, nodes
         do c = 1, dim
           d(dim*(i - 2) + c) = factor*(u(c, node(i, e)) - u(c, node(1, e)))
         end do
       end do
       if (size(d) == 6) then
-        call multiply_6(k(1, 1, e), d, g(1, e))
+        call multiply_6(k(1, 1, at), d, g(1, e))
         cycle
       end if
-      g(:, e) = k(:, 1, e)*d(1)
+      g(:, e) = k(:, 1, at)*d(1)
       do j = 2, size(d)
-        g(:, e) = g(:, e) + k(:, j, e)*d(j)
+        g(:, e) = g(:, e) + k(:, j, at)*d(j)
       end do
     end do
   end subroutine stiffness_forces

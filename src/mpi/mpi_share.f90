@@ -2,7 +2,7 @@
 !> Both ends of how the first rank gives the others their elements: nodes and stiffness, and
 !> which entries of the graph of the scene each has.
 module mpi_share
-  use assembly_blocks, only: element_block_t, find_stiffness
+  use assembly_blocks, only: element_block_t, find_stiffness, sort_stiffness
   use assembly_ring, only: ring_unknowns
   use base_kinds, only: wp
   use element_bending, only: quad_mode_moduli
@@ -80,8 +80,9 @@ contains
     end do
     call make_domain(model%dim, part(0)%node, shape_of, member, own)
     do b = 1, size(block)
-      if (.not. block(b)%is_rigid) call send_stiffness(link, model, block(b), owner, &
-          own%system%block(b), modes)
+      if (block(b)%is_rigid) cycle
+      call send_stiffness(link, model, block(b), owner, own%system%block(b), modes)
+      call sort_stiffness(own%system%block(b))
     end do
     allocate (owner_of(size(graph%column)), source=0_i2)
     do r = 1, link%ranks - 1
@@ -301,6 +302,7 @@ contains
           call receive_some(link, size(own%stiffness, 1), own%stiffness(:, :, from + 1:), n)
           from = from + n
         end do
+        call sort_stiffness(own)
       end associate
     end do
     call make_graph(domain, reshape([integer ::], [2, 0]))
