@@ -16,8 +16,8 @@ module assembly_classes
   !> Classes of a block while they are made: chains of those with the same key.
   type, public :: classes_t
     integer :: n = 0                          !< classes so far
-    integer, private, allocatable :: head(:)  !< (0:) newest class of a key, 0 = none
-    integer, private, allocatable :: next(:)  !< an older one of the same key
+    integer, allocatable, private :: head(:)  !< (0:) newest class of a key, 0 = none
+    integer, allocatable, private :: next(:)  !< an older one of the same key
   contains
     procedure :: begin
     procedure :: add
@@ -38,6 +38,7 @@ contains
     class(classes_t), intent(inout) :: this
     integer, intent(in) :: n
     this%n = 0
+    if (allocated(this%head)) deallocate (this%head, this%next)
     allocate (this%head(0:n), source=0)
     allocate (this%next(n))
   end subroutine begin
