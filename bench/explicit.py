@@ -2,11 +2,17 @@
 """What an explicit step costs beside an implicit one, without contact: instructions of a step
 (callgrind; the run less one of half as many steps, so that set-up does not count) and processor
 microseconds by phase, runs interleaved, medians. Instructions of the largest scene are left out:
-its factor alone would take minutes there. Needs valgrind; without it only times are printed."""
+its factor alone would take minutes there. Needs valgrind; without it only times are printed.
+
+    explicit.py [RUNS [PYTHON]]
+
+PYTHON: one that has akantu (pip install akantu): its explicit step of the same mesh, step length
+and number of steps beside ours, in the same rounds, on one thread; left out where it has none."""
 
 import os
 import shutil
 import statistics
+import subprocess
 import sys
 import tempfile
 
@@ -22,6 +28,8 @@ SCHEMES = [
     ("THETA lumped", dict(scheme="THETA", mass="LUMPED")),
     ("PAOLI 1/4 lumped", dict(scheme="PAOLI", mass="LUMPED")),
     ("PAOLI 0 lumped", dict(scheme="PAOLI", mass="LUMPED", pbeta=0.0)),
+    # grid lines shifted: no two elements are equal
+    ("PAOLI 0 disturbed", dict(scheme="PAOLI", mass="LUMPED", pbeta=0.0, random=(0.2, 3))),
 ]
 PHASES = ("matrix-vector products", "solves", "contact search", "update", "start and end")
 
@@ -55,8 +63,27 @@ def phases(folder, nx, ny, steps, options):
     return found, [1.0e3 * log["phase " + p] for p in ("input", "assembly", "factorisation")]
 
 
+def akantu_step(python, nx, ny, steps, folder):
+    """Microseconds of a step of akantu; None where it is not installed."""
+    scene = dict(nx=nx, ny=ny, courant=0.5, gap=5.0, **dict(SCHEMES)["PAOLI 0 lumped"])
+    dt = make_bars.write(os.path.join(folder, "bars.k"), tend=None, **scene)["dt"]
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "akantu_bars.py")
+    done = subprocess.run(
+        [python, program, str(nx), str(ny), repr(dt), str(steps)],
+        capture_output=True,
+        text=True,
+        env=dict(os.environ, OMP_NUM_THREADS="1"),
+    )
+    if done.returncode == 77:
+        return None
+    if done.returncode != 0:
+        raise SystemExit(done.stderr)
+    return float(done.stdout)
+
+
 def main():
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    python = sys.argv[2] if len(sys.argv) > 2 else sys.executable
     print(
         "%7s %-17s" % ("dofs", "scheme")
         + " ".join("%10s" % p.split()[-1][:10] for p in PHASES)
@@ -66,7 +93,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for nx, ny, steps in SIZES:
             times = {name: [] for name, _ in SCHEMES}
+            peer = []
             for _ in range(runs):
+                peer.append(akantu_step(python, nx, ny, steps, folder))
                 for name, options in SCHEMES:
                     times[name].append(phases(folder, nx, ny, steps, options))
             base = None
@@ -83,6 +112,15 @@ def main():
                     + " %10.2f %6.3f %12.0f %6.3f | "
                     % (sum(split), sum(split) / base[0], count, count / base[1])
                     + " ".join("%.1f" % x for x in set_up),
+                    flush=True,
+                )
+            if None in peer:
+                print("%7s akantu is not installed: left out" % "")
+            else:
+                used = statistics.median(peer)
+                print(
+                    "%7s %-17s %65.2f %6.3f"
+                    % ("", "akantu explicit", used, used / base[0]),
                     flush=True,
                 )
 
