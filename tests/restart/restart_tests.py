@@ -320,7 +320,7 @@ def kills():
     other name), some inside that of a field file (it is there and grows): the run goes on, or
     starts anew where it had no restart file yet, and is the whole run."""
     random.seed(4711)
-    count = int(os.environ.get("KILLS", "100"))
+    count = int(os.environ.get("KILLS", "50"))
     names = ["smooth", "friction", "massless", "newmark", "block"]
     total = resumed = 0
     for name in names:
