@@ -69,7 +69,8 @@ contains
   end subroutine factor_columns
 
   !> c = c - L M', lower triangle: L has the m rows of c, M the first n of them, one for each
-  !> column of c; both have `columns` columns. By strips of rows, the longest first.
+  !> column of c; both have `columns` columns. By strips of rows; threads take the
+  !> longest first.
   subroutine subtract_products(m, n, columns, stride, threads, wide, l, stride_c, c)
     integer, intent(in) :: m, n, columns, stride, threads, stride_c
     logical, intent(in) :: wide

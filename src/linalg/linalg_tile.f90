@@ -8,9 +8,8 @@ module linalg_tile
 
   !> A strip: so many rows, by tiles of so many columns, with so many columns of L at a time,
   !> which packed are 128 kB; the block of it that stays in registers.
-  integer, parameter, public :: strip_rows = 64
-  integer, parameter :: strip_columns = 64, depth_at_once = 128
-  integer, parameter :: tall = 8, three = 3, four = 4, five = 5, seven = 7
+  integer, parameter, public :: strip_rows = 64, strip_columns = 64, depth_at_once = 128
+  integer, parameter, public :: tall = 8, three = 3, four = 4, five = 5, seven = 7
 
 contains
 

@@ -3,14 +3,11 @@
 !> compiles this file for (without fused products): the same digits, twice as fast.
 module linalg_tile_wide
   use base_kinds, only: wp, zero
+  use linalg_tile, only: strip_rows, strip_columns, depth_at_once, tall, three, four, five, &
+      seven
   implicit none
   private
   public :: subtract_strip
-
-  !> A strip: so many rows, by tiles of so many columns, with so many columns of L at a time,
-  !> which packed are 128 kB; the block of it that stays in registers.
-  integer, parameter :: strip_rows = 64, strip_columns = 64, depth_at_once = 128
-  integer, parameter :: tall = 8, three = 3, four = 4, five = 5, seven = 7
 
 contains
 
